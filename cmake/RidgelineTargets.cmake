@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: Apache-2.0
+# One folder of src/ is one static library; one folder of tests/ is one test program.
+
+add_library(ridgeline_flags INTERFACE)
+target_compile_options(ridgeline_flags INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor)
+if(RIDGELINE_WERROR)
+  target_compile_options(ridgeline_flags INTERFACE -Werror)
+endif()
+if(RIDGELINE_SANITIZE)
+  add_compile_options(-fsanitize=${RIDGELINE_SANITIZE} -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${RIDGELINE_SANITIZE})
+endif()
+
+# ridgeline_add_module(NAME SOURCES a.cc ... [PUBLIC lib ...] [PRIVATE lib ...])
+function(ridgeline_add_module name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(ridgeline_${name} STATIC ${ARG_SOURCES})
+  add_library(ridgeline::${name} ALIAS ridgeline_${name})
+  set_target_properties(ridgeline_${name} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(
+    ridgeline_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
+                             $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/ridgeline>)
+  target_link_libraries(ridgeline_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  target_link_libraries(ridgeline_${name} PRIVATE $<BUILD_INTERFACE:ridgeline_flags>)
+  set_property(GLOBAL APPEND PROPERTY RIDGELINE_MODULES ridgeline_${name})
+endfunction()
+
+# ridgeline_add_tests(NAME SOURCES a_test.cc ... [LIBS lib ...]): the program <name>_tests, its cases
+# known to CTest one by one.
+function(ridgeline_add_tests name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
+  add_executable(${name}_tests ${ARG_SOURCES})
+  target_link_libraries(${name}_tests PRIVATE ${ARG_LIBS} ridgeline_flags GTest::gtest GTest::gmock
+                                              GTest::gtest_main)
+  target_include_directories(${name}_tests PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_compile_definitions(${name}_tests
+                             PRIVATE RIDGELINE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  include(GoogleTest)
+  gtest_discover_tests(${name}_tests TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 120
+                       PROPERTIES TIMEOUT 300)
+endfunction()
+
+# ridgeline_add_bench(NAME SOURCES a_bench.cc ... [LIBS lib ...])
+function(ridgeline_add_bench name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LIBS} ridgeline_flags benchmark::benchmark
+                                        benchmark::benchmark_main)
+  target_compile_definitions(${name} PRIVATE RIDGELINE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+endfunction()

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/atomic_file.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "base/error.h"
+
+namespace ridgeline {
+
+namespace fs = std::filesystem;
+
+fs::path TemporaryBeside(const fs::path& path) {
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) {
+    throw InputError(path.string(), "", "no folder " + folder.string(), "an existing folder");
+  }
+  if (::access(folder.c_str(), W_OK) != 0) {
+    throw InputError(path.string(), "", "a folder that cannot be written", "write permission");
+  }
+  static std::atomic<unsigned> counter{0};
+  return folder / ("." + path.stem().string() + ".part-" + std::to_string(::getpid()) + "-" +
+                   std::to_string(counter++) + path.extension().string());
+}
+
+void CommitFile(const fs::path& temporary, const fs::path& path) {
+  std::error_code error;
+  fs::rename(temporary, path, error);
+  if (!error) return;
+  std::error_code ignored;
+  fs::remove(temporary, ignored);
+  throw InputError(path.string(), "", error.message(), "a file that can be replaced");
+}
+
+void WriteFileAtomically(const fs::path& path, std::string_view content) {
+  const fs::path temporary = TemporaryBeside(path);
+  {
+    std::ofstream stream(temporary, std::ios::binary);
+    stream.write(content.data(), static_cast<std::streamsize>(content.size()));
+    stream.flush();
+    if (!stream) {
+      std::error_code ignored;
+      fs::remove(temporary, ignored);
+      throw InputError(path.string(), "", "a failed write", "space and permission to write");
+    }
+  }
+  CommitFile(temporary, path);
+}
+
+std::string ReadFile(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) throw InputError(path.string(), "", "a folder", "a file");
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw InputError(path.string(), "", "no readable file", "an existing file");
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace ridgeline

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace ridgeline {
+
+// A path beside `path`, with the same extension, to be written and then given to CommitFile. Unique
+// to this process. Throws InputError if the folder does not exist or cannot be written.
+std::filesystem::path TemporaryBeside(const std::filesystem::path& path);
+
+// Moves a finished temporary file to its place in one step. Throws InputError on failure.
+void CommitFile(const std::filesystem::path& temporary, const std::filesystem::path& path);
+
+// Writes a whole file or none: temporary file, flush, rename. Throws InputError on failure.
+void WriteFileAtomically(const std::filesystem::path& path, std::string_view content);
+
+// Whole content of a file. Throws InputError if it cannot be read.
+std::string ReadFile(const std::filesystem::path& path);
+
+}  // namespace ridgeline

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/options.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+
+namespace ridgeline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+class JsonWriter final : public OptionVisitor {
+ public:
+  explicit JsonWriter(Json& out) : out_(out) { out_ = Json::object(); }
+  void Field(std::string_view name, bool& value) override { Put(name, value); }
+  void Field(std::string_view name, int& value) override { Put(name, value); }
+  void Field(std::string_view name, double& value) override { Put(name, value); }
+  void Field(std::string_view name, std::string& value) override { Put(name, value); }
+  void Field(std::string_view name, std::vector<double>& value) override { Put(name, value); }
+  void Field(std::string_view name, std::vector<std::string>& value) override { Put(name, value); }
+  void Group(std::string_view name, const std::function<void(OptionVisitor&)>& fields) override {
+    JsonWriter writer(out_[std::string(name)]);
+    fields(writer);
+  }
+
+ private:
+  template <typename T>
+  void Put(std::string_view name, const T& value) {
+    out_[std::string(name)] = value;
+  }
+
+  Json& out_;
+};
+
+class JsonReader final : public OptionVisitor {
+ public:
+  JsonReader(const Json& in, std::string file, std::string prefix)
+      : in_(in), file_(std::move(file)), prefix_(std::move(prefix)) {}
+
+  void Field(std::string_view name, bool& value) override {
+    Get(name, value, "true or false", [](const Json& j) { return j.is_boolean(); });
+  }
+  void Field(std::string_view name, int& value) override {
+    Get(name, value, "a whole number", [](const Json& j) { return j.is_number_integer(); });
+  }
+  void Field(std::string_view name, double& value) override {
+    Get(name, value, "a number", [](const Json& j) { return j.is_number(); });
+  }
+  void Field(std::string_view name, std::string& value) override {
+    Get(name, value, "a text", [](const Json& j) { return j.is_string(); });
+  }
+  void Field(std::string_view name, std::vector<double>& value) override {
+    Get(name, value, "a list of numbers", [](const Json& j) {
+      return j.is_array() &&
+             std::all_of(j.begin(), j.end(), [](const Json& e) { return e.is_number(); });
+    });
+  }
+  void Field(std::string_view name, std::vector<std::string>& value) override {
+    Get(name, value, "a list of texts", [](const Json& j) {
+      return j.is_array() &&
+             std::all_of(j.begin(), j.end(), [](const Json& e) { return e.is_string(); });
+    });
+  }
+  void Group(std::string_view name, const std::function<void(OptionVisitor&)>& fields) override {
+    known_.emplace_back(name);
+    const auto it = in_.find(std::string(name));
+    if (it == in_.end()) return;
+    if (!it->is_object()) throw InputError(file_, Path(name), it->dump(), "an object { ... }");
+    JsonReader reader(*it, file_, Path(name));
+    fields(reader);
+    reader.RejectUnknown();
+  }
+
+  void RejectUnknown() const {
+    for (const auto& [key, value] : in_.items()) {
+      if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+      const std::string nearest = NearestName(key, known_);
+      throw InputError(file_,
+                       Path(key),
+                       "an unknown key",
+                       nearest.empty() ? "no key here" : "e.g. \"" + Path(nearest) + "\"");
+    }
+  }
+
+ private:
+  std::string Path(std::string_view name) const {
+    return prefix_.empty() ? std::string(name) : prefix_ + "." + std::string(name);
+  }
+
+  template <typename T, typename Test>
+  void Get(std::string_view name, T& value, const char* expected, const Test& test) {
+    known_.emplace_back(name);
+    const auto it = in_.find(std::string(name));
+    if (it == in_.end()) return;
+    if (!test(*it)) throw InputError(file_, Path(name), it->dump(), expected);
+    value = it->template get<T>();
+  }
+
+  const Json& in_;
+  std::string file_;
+  std::string prefix_;
+  std::vector<std::string> known_;
+};
+
+}  // namespace
+
+std::string OptionsToJson(const VisitOptions& options) {
+  Json json;
+  JsonWriter writer(json);
+  options(writer);
+  return json.dump(2) + "\n";
+}
+
+void OptionsFromJson(const std::string& text, const std::string& file, const VisitOptions& options) {
+  Json json;
+  try {
+    json = Json::parse(text);
+  } catch (const Json::parse_error& e) {
+    throw InputError(file, "byte " + std::to_string(e.byte), "text that is not JSON", "valid JSON");
+  }
+  if (!json.is_object()) throw InputError(file, "", json.type_name(), "a JSON object { ... }");
+  JsonReader reader(json, file, "");
+  options(reader);
+  reader.RejectUnknown();
+}
+
+void SetOption(const std::string& assignment, const VisitOptions& options) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw InputError("--set", "", "\"" + assignment + "\"", "path.to.key=value");
+  }
+  const std::string text = assignment.substr(equals + 1);
+  Json value = Json::parse(text, nullptr, false);
+  if (value.is_discarded()) value = text;
+  std::string path = assignment.substr(0, equals);
+  for (std::size_t dot = path.rfind('.'); dot != std::string::npos; dot = path.rfind('.')) {
+    value = Json{{path.substr(dot + 1), value}};
+    path.resize(dot);
+  }
+  OptionsFromJson(Json{{path, value}}.dump(), "--set", options);
+}
+
+}  // namespace ridgeline

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "camera/intrinsics.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "base/error.h"
+
+namespace ridgeline {
+namespace {
+
+struct ModelLayout {
+  const char* name;
+  std::size_t num_params;
+  bool two_focal_lengths;
+  std::size_t num_radial;
+  std::size_t num_tangential;
+};
+
+constexpr std::array<ModelLayout, 5> kModels = {{{"SIMPLE_PINHOLE", 3, false, 0, 0},
+                                                 {"PINHOLE", 4, true, 0, 0},
+                                                 {"SIMPLE_RADIAL", 4, false, 1, 0},
+                                                 {"RADIAL", 5, false, 2, 0},
+                                                 {"OPENCV", 8, true, 2, 2}}};
+
+const ModelLayout* FindModel(const std::string& name) {
+  const auto it = std::find_if(
+      kModels.begin(), kModels.end(), [&](const ModelLayout& m) { return name == m.name; });
+  return it == kModels.end() ? nullptr : &*it;
+}
+
+struct Distortion {
+  double k1 = 0.0;
+  double k2 = 0.0;
+  double p1 = 0.0;
+  double p2 = 0.0;
+};
+
+Distortion DistortionOf(const CameraIntrinsics& camera) {
+  const ModelLayout& layout = *FindModel(camera.model);
+  const std::size_t first = layout.two_focal_lengths ? 4 : 3;
+  Distortion d;
+  if (layout.num_radial > 0) d.k1 = camera.params[first];
+  if (layout.num_radial > 1) d.k2 = camera.params[first + 1];
+  if (layout.num_tangential > 0) {
+    d.p1 = camera.params[first + 2];
+    d.p2 = camera.params[first + 3];
+  }
+  return d;
+}
+
+Eigen::Vector2d Displacement(const Distortion& d, const Eigen::Vector2d& u) {
+  const double r2 = u.squaredNorm();
+  const double radial = d.k1 * r2 + d.k2 * r2 * r2;
+  const double xy = u.x() * u.y();
+  return {u.x() * radial + 2.0 * d.p1 * xy + d.p2 * (r2 + 2.0 * u.x() * u.x()),
+          u.y() * radial + 2.0 * d.p2 * xy + d.p1 * (r2 + 2.0 * u.y() * u.y())};
+}
+
+}  // namespace
+
+PinholeCamera PinholeCamera::Scaled(double scale) const {
+  PinholeCamera scaled;
+  scaled.width = std::max(1, static_cast<int>(std::lround(width * scale)));
+  scaled.height = std::max(1, static_cast<int>(std::lround(height * scale)));
+  const double sx = static_cast<double>(scaled.width) / width;
+  const double sy = static_cast<double>(scaled.height) / height;
+  scaled.fx = fx * sx;
+  scaled.fy = fy * sy;
+  scaled.cx = cx * sx;
+  scaled.cy = cy * sy;
+  return scaled;
+}
+
+void CameraIntrinsics::Validate(const std::string& file, const std::string& field) const {
+  const ModelLayout* layout = FindModel(model);
+  if (layout == nullptr) {
+    std::string names;
+    for (const ModelLayout& m : kModels) names += (names.empty() ? "" : ", ") + std::string(m.name);
+    throw InputError(file, field + ".model", "\"" + model + "\"", "one of " + names);
+  }
+  if (width <= 0) throw InputError(file, field + ".width", std::to_string(width), "> 0");
+  if (height <= 0) throw InputError(file, field + ".height", std::to_string(height), "> 0");
+  if (params.size() != layout->num_params) {
+    throw InputError(file,
+                     field + ".params",
+                     std::to_string(params.size()) + " numbers",
+                     std::to_string(layout->num_params) + " for " + model);
+  }
+  for (std::size_t i = 0; i < params.size(); ++i) {
+    const bool is_focal = i == 0 || (i == 1 && layout->two_focal_lengths);
+    if (!std::isfinite(params[i]) || (is_focal && params[i] <= 0.0)) {
+      throw InputError(file,
+                       field + ".params[" + std::to_string(i) + "]",
+                       std::to_string(params[i]),
+                       is_focal ? "a focal length > 0" : "a finite number");
+    }
+  }
+}
+
+bool CameraIntrinsics::HasDistortion() const {
+  const Distortion d = DistortionOf(*this);
+  return d.k1 != 0.0 || d.k2 != 0.0 || d.p1 != 0.0 || d.p2 != 0.0;
+}
+
+PinholeCamera CameraIntrinsics::Pinhole() const {
+  const bool two = FindModel(model)->two_focal_lengths;
+  return {width, height, params[0], params[two ? 1 : 0], params[two ? 2 : 1], params[two ? 3 : 2]};
+}
+
+Eigen::Vector2d CameraIntrinsics::Distort(const Eigen::Vector2d& normalized) const {
+  const Eigen::Vector2d u = normalized + Displacement(DistortionOf(*this), normalized);
+  const PinholeCamera pinhole = Pinhole();
+  return {pinhole.fx * u.x() + pinhole.cx, pinhole.fy * u.y() + pinhole.cy};
+}
+
+Eigen::Vector2d CameraIntrinsics::Undistort(const Eigen::Vector2d& px) const {
+  const Distortion d = DistortionOf(*this);
+  const Eigen::Vector2d target = Pinhole().RayFromImage(px).head<2>();
+  Eigen::Vector2d u = target;
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Vector2d next = target - Displacement(d, u);
+    const double step = (next - u).norm();
+    u = next;
+    if (step < 1e-10) break;
+  }
+  return u;
+}
+
+cv::Mat UndistortImage(const cv::Mat& image, const CameraIntrinsics& camera) {
+  if (!camera.HasDistortion()) return image;
+  const PinholeCamera pinhole = camera.Pinhole();
+  cv::Mat map(image.size(), CV_32FC2);
+  for (int y = 0; y < map.rows; ++y) {
+    for (int x = 0; x < map.cols; ++x) {
+      const Eigen::Vector2d px = camera.Distort(pinhole.RayFromImage({x + 0.5, y + 0.5}).head<2>());
+      map.at<cv::Vec2f>(y, x) = {static_cast<float>(px.x() - 0.5), static_cast<float>(px.y() - 0.5)};
+    }
+  }
+  cv::Mat undistorted;
+  cv::remap(image, undistorted, map, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  return undistorted;
+}
+
+}  // namespace ridgeline

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <optional>
+#include <vector>
+
+#include "base/options.h"
+#include "camera/intrinsics.h"
+#include "camera/pose.h"
+#include "city/city_model.h"
+#include "city/terrain.h"
+
+namespace ridgeline {
+
+// What is seen beside an edge, on one side of it.
+enum class Beside : std::uint8_t { kSky, kOwnWall, kOwnRoof, kOtherBuilding, kGround };
+
+// A visible part of a model edge, seen from one position. Orientation-free.
+struct VisiblePiece {
+  Eigen::Vector3f a = Eigen::Vector3f::Zero();  // ends, local frame [m]
+  Eigen::Vector3f b = Eigen::Vector3f::Zero();
+  std::uint32_t edge = 0;  // index into CityModel::feature_edges
+  // Seen from the position, walking from a to b with up = +height: what lies to the left and right.
+  Beside left = Beside::kSky;
+  Beside right = Beside::kSky;
+};
+
+// Everything visible from one position, in all directions of a sector.
+struct VisibleSet {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // local [m]
+  std::vector<VisiblePiece> pieces;                    // ordered by edge, then along the edge
+  // Elevation angle [rad] of the skyline (buildings and terrain) at azimuths
+  // first_azimuth + i * azimuth_step (clockwise from north) [rad].
+  double first_azimuth = 0.0;
+  double azimuth_step = 0.0;
+  std::vector<float> skyline_elevation;
+};
+
+// Horizontal sector of view directions, clockwise from north [rad]. Half width pi: all around.
+struct Sector {
+  double center = 0.0;
+  double half_width = 3.14159265358979323846;
+};
+
+struct ProjectionOptions {
+  // Edges farther than this are ignored [m].
+  double max_distance_m = 400.0;
+  // Shortest visible piece kept, as seen from the position [mrad]; about a pixel.
+  double min_piece_mrad = 2.0;
+  // Spacing of the virtual skyline's azimuths [mrad].
+  double skyline_step_mrad = 2.0;
+
+  void Visit(OptionVisitor& v) {
+    v.Field("max_distance_m", max_distance_m);
+    v.Field("min_piece_mrad", min_piece_mrad);
+    v.Field("skyline_step_mrad", skyline_step_mrad);
+  }
+  // Throws InputError naming the field, e.g. "projection.max_distance_m".
+  void Validate() const;
+};
+
+// Depth [m along the optical axis] and surface index per pixel; infinity / kNoSurface: sky.
+// The terrain has the index kTerrainSurface.
+inline constexpr std::uint32_t kTerrainSurface = 0xFFFFFFFEu;
+struct ViewBuffers {
+  cv::Mat depth;                        // CV_32F
+  std::vector<std::uint32_t> surfaces;  // row-major
+};
+
+// The model and the terrain around it as a ray scene. Thread-safe after construction.
+class Scene {
+ public:
+  // The model must outlive the scene; `dtm` may be null (then nothing hides behind hills).
+  Scene(const CityModel& model, const HeightGrid* dtm, const ProjectionOptions& options);
+  ~Scene();
+  Scene(Scene&&) noexcept;
+
+  // Visible pieces of feature edges and silhouettes from `position` (local) within the sector.
+  VisibleSet VisibleFrom(const Eigen::Vector3d& position, const Sector& sector) const;
+
+  // One ray per pixel centre.
+  ViewBuffers Render(const PinholeCamera& camera, const Pose& cam_from_local) const;
+
+  // Distance [m] to the first hit of a ray, nullopt: sky.
+  std::optional<double> Raycast(const Eigen::Vector3d& from, const Eigen::Vector3d& direction) const;
+
+  const CityModel& model() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// A segment in the image [px], from a to b as in its piece.
+struct ProjectedSegment {
+  Eigen::Vector2f a = Eigen::Vector2f::Zero();
+  Eigen::Vector2f b = Eigen::Vector2f::Zero();
+  std::uint32_t piece = 0;  // index into VisibleSet::pieces
+  float depth = 0.0f;       // of the middle, along the optical axis [m]
+};
+
+// Projects the pieces into the image, clipped to the near plane (0.1 m) and to the image. Appends to
+// `segments` after clearing it, so that the caller's memory is used again.
+void ProjectPieces(const VisibleSet& visible,
+                   const PinholeCamera& camera,
+                   const Pose& cam_from_local,
+                   std::vector<ProjectedSegment>& segments);
+
+}  // namespace ridgeline
