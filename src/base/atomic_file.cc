@@ -6,6 +6,8 @@
 #include <atomic>
 #include <fstream>
 #include <iterator>
+#include <mutex>
+#include <set>
 #include <system_error>
 
 #include "base/error.h"
@@ -13,6 +15,28 @@
 namespace ridgeline {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+// Temporaries handed out and not committed yet.
+struct Pending {
+  std::mutex mutex;
+  std::set<fs::path> paths;
+};
+
+// Never destroyed: the thread that waits for Ctrl-C may outlive main().
+Pending& PendingTemporaries() {
+  static Pending* const pending = new Pending;
+  return *pending;
+}
+
+void Forget(const fs::path& temporary) {
+  Pending& pending = PendingTemporaries();
+  const std::lock_guard lock(pending.mutex);
+  pending.paths.erase(temporary);
+}
+
+}  // namespace
 
 fs::path TemporaryBeside(const fs::path& path) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
@@ -24,17 +48,33 @@ fs::path TemporaryBeside(const fs::path& path) {
     throw InputError(path.string(), "", "a folder that cannot be written", "write permission");
   }
   static std::atomic<unsigned> counter{0};
-  return folder / ("." + path.stem().string() + ".part-" + std::to_string(::getpid()) + "-" +
-                   std::to_string(counter++) + path.extension().string());
+  fs::path temporary = folder / ("." + path.stem().string() + ".part-" +
+                                 std::to_string(::getpid()) + "-" + std::to_string(counter++) +
+                                 path.extension().string());
+  Pending& pending = PendingTemporaries();
+  const std::lock_guard lock(pending.mutex);
+  pending.paths.insert(temporary);
+  return temporary;
 }
 
 void CommitFile(const fs::path& temporary, const fs::path& path) {
   std::error_code error;
   fs::rename(temporary, path, error);
+  Forget(temporary);
   if (!error) return;
   std::error_code ignored;
-  fs::remove(temporary, ignored);
+  fs::remove_all(temporary, ignored);
   throw InputError(path.string(), "", error.message(), "a file that can be replaced");
+}
+
+void RemoveTemporaries() noexcept {
+  Pending& pending = PendingTemporaries();
+  const std::lock_guard lock(pending.mutex);
+  for (const fs::path& path : pending.paths) {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  pending.paths.clear();
 }
 
 void WriteFileAtomically(const fs::path& path, std::string_view content) {
@@ -46,6 +86,7 @@ void WriteFileAtomically(const fs::path& path, std::string_view content) {
     if (!stream) {
       std::error_code ignored;
       fs::remove(temporary, ignored);
+      Forget(temporary);
       throw InputError(path.string(), "", "a failed write", "space and permission to write");
     }
   }

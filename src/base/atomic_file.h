@@ -7,12 +7,16 @@
 
 namespace ridgeline {
 
-// A path beside `path`, with the same extension, to be written and then given to CommitFile. Unique
-// to this process. Throws InputError if the folder does not exist or cannot be written.
+// A path beside `path`, with the same extension, to be written (a file or a folder) and then given to
+// CommitFile. Unique to this process. Throws InputError if the folder does not exist or cannot be
+// written.
 std::filesystem::path TemporaryBeside(const std::filesystem::path& path);
 
 // Moves a finished temporary file to its place in one step. Throws InputError on failure.
 void CommitFile(const std::filesystem::path& temporary, const std::filesystem::path& path);
+
+// Removes all temporaries that were not committed yet: after an interrupt or a failure. Thread-safe.
+void RemoveTemporaries() noexcept;
 
 // Writes a whole file or none: temporary file, flush, rename. Throws InputError on failure.
 void WriteFileAtomically(const std::filesystem::path& path, std::string_view content);
