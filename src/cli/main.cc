@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <opencv2/core/utility.hpp>
+#include <string>
+#include <unistd.h>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "base/parallel.h"
+#include "cli/commands.h"
+#include "cli/interrupt.h"
+
+namespace {
+
+using namespace ridgeline;
+
+bool TakesColors(int descriptor) {
+  const char* no_color = std::getenv("NO_COLOR");
+  const char* term = std::getenv("TERM");
+  return ::isatty(descriptor) == 1 && (no_color == nullptr || *no_color == '\0') &&
+         term != nullptr && std::string(term) != "dumb";
+}
+
+int Fail(const Context& context, const std::string& message, int exit_code) {
+  RemoveTemporaries();
+  std::cerr << Colored(context.color_err, Color::kRed, "error: ") << message << '\n';
+  return exit_code;
+}
+
+int Parse(CLI::App& app, int argc, char** argv, const Context& context) {
+  try {
+    app.parse(argc, argv);
+    return kExitOk;
+  } catch (const CLI::Success& e) {  // --help, --version
+    app.exit(e);
+    std::exit(kExitOk);
+  } catch (const CLI::ParseError& e) {
+    const auto chosen = app.get_subcommands();
+    const std::string name = chosen.empty() ? "ridgeline" : "ridgeline " + chosen[0]->get_name();
+    return Fail(context, std::string(e.what()) + "\nSee " + name + " --help", kExitBadInput);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Context context;
+  context.color_out = TakesColors(STDOUT_FILENO);
+  context.color_err = TakesColors(STDERR_FILENO);
+  context.terminal_err = ::isatty(STDERR_FILENO) == 1;
+  try {
+    CleanUpOnInterrupt();
+    const auto app = MakeProgram(context);
+    const int parsed = Parse(*app, argc, argv, context);
+    if (parsed != kExitOk) return parsed;
+    cv::setNumThreads(ResolveThreads(context.threads));
+    const int exit_code = context.run();
+    if (!std::cout.flush()) return Fail(context, "standard output cannot be written", kExitBadInput);
+    return exit_code;
+  } catch (const InputError& e) {
+    return Fail(context, e.what(), kExitBadInput);
+  } catch (const std::exception& e) {
+    return Fail(context,
+                std::string("internal error, please report it: ") + e.what(),
+                kExitInternal);
+  }
+}
