@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/options.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+
+namespace ridgeline {
+namespace {
+
+struct Inner {
+  int count = 3;
+  std::vector<double> weights = {1.0, 2.0};
+  void Visit(OptionVisitor& v) {
+    v.Field("count", count);
+    v.Field("weights", weights);
+  }
+};
+
+struct Outer {
+  double length_px = 25.0;
+  bool merge = false;
+  std::string detector = "lsd";
+  Inner inner;
+  void Visit(OptionVisitor& v) {
+    v.Field("length_px", length_px);
+    v.Field("merge", merge);
+    v.Field("detector", detector);
+    v.Group("inner", [this](OptionVisitor& g) { inner.Visit(g); });
+  }
+};
+
+VisitOptions Visitor(Outer& options) {
+  return [&options](OptionVisitor& v) { options.Visit(v); };
+}
+
+std::string MessageOf(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "no error";
+}
+
+TEST(Options, JsonRoundTripKeepsEveryField) {
+  Outer written;
+  written.length_px = 0.1;
+  written.merge = true;
+  written.detector = "fld";
+  written.inner = {7, {0.25}};
+  const std::string json = OptionsToJson(Visitor(written));
+  Outer read;
+  OptionsFromJson(json, "a.json", Visitor(read));
+  EXPECT_EQ(OptionsToJson(Visitor(read)), json);
+}
+
+TEST(Options, AbsentKeysKeepTheirValues) {
+  Outer options;
+  OptionsFromJson(R"({"inner": {"count": 9}})", "a.json", Visitor(options));
+  EXPECT_EQ(options.inner.count, 9);
+  EXPECT_EQ(options.inner.weights.size(), 2u);
+  EXPECT_EQ(options.length_px, 25.0);
+}
+
+TEST(Options, UnknownKeyNamesTheNearest) {
+  Outer options;
+  const std::string message = MessageOf(
+      [&] { OptionsFromJson(R"({"inner": {"cuont": 9}})", "a.json", Visitor(options)); });
+  EXPECT_EQ(message, "a.json: inner.cuont: got an unknown key, expected e.g. \"inner.count\"");
+}
+
+TEST(Options, WrongTypesAreNamed) {
+  Outer options;
+  EXPECT_EQ(MessageOf([&] { SetOption("length_px=long", Visitor(options)); }),
+            "--set: length_px: got \"long\", expected a number");
+  EXPECT_EQ(MessageOf([&] { SetOption("inner.count=1.5", Visitor(options)); }),
+            "--set: inner.count: got 1.5, expected a whole number");
+  EXPECT_EQ(MessageOf([&] { SetOption("inner=4", Visitor(options)); }),
+            "--set: inner: got 4, expected an object { ... }");
+  EXPECT_EQ(MessageOf([&] { SetOption("length_px", Visitor(options)); }),
+            "--set: got \"length_px\", expected path.to.key=value");
+}
+
+TEST(Options, SetReachesNestedFieldsAndBareWords) {
+  Outer options;
+  SetOption("inner.weights=[4,5,6]", Visitor(options));
+  SetOption("detector=edlines", Visitor(options));
+  EXPECT_THAT(options.inner.weights, testing::ElementsAre(4.0, 5.0, 6.0));
+  EXPECT_EQ(options.detector, "edlines");
+}
+
+TEST(Options, BrokenJsonNamesThePlace) {
+  Outer options;
+  EXPECT_THAT(MessageOf([&] { OptionsFromJson("{\"merge\": tru", "a.json", Visitor(options)); }),
+              testing::StartsWith("a.json: byte "));
+}
+
+TEST(NearestName, IsByEditDistance) {
+  EXPECT_EQ(NearestName("heding", {"heading", "height", "pitch"}), "heading");
+  EXPECT_EQ(NearestName("x", {}), "");
+}
+
+}  // namespace
+}  // namespace ridgeline
