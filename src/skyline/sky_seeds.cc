@@ -79,7 +79,7 @@ double Likeliness(const std::vector<int>& pixels, const cv::Mat& log_odds) {
   const double deepest = *std::max_element(bottom.begin(), bottom.end());
   const double area = static_cast<double>(pixels.size());
   return sum / area + 4.0 * (area / filled - 1.0) -
-         4.0 * std::max(0.0, deepest / log_odds.rows - 0.5) +
+         2.5 * std::max(0.0, deepest / log_odds.rows - 0.5) +
          0.5 * std::log(area / static_cast<double>(log_odds.total()));
 }
 

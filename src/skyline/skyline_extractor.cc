@@ -3,10 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <opencv2/imgproc.hpp>
+#include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "skyline/column_path.h"
+#include "skyline/foliage.h"
 
 namespace ridgeline {
 namespace {
@@ -86,6 +91,51 @@ ColumnCosts BoundaryCosts(const cv::Mat& bgr, const cv::Mat& log_odds, const Sky
   return costs;
 }
 
+cv::Mat Reduced(const cv::Mat& bgr, int width) {
+  if (bgr.cols <= width) return bgr;
+  const double scale = static_cast<double>(width) / bgr.cols;
+  const int rows = std::max(4, static_cast<int>(std::lround(bgr.rows * scale)));
+  cv::Mat reduced;
+  cv::resize(bgr, reduced, {width, rows}, 0, 0, cv::INTER_AREA);
+  return reduced;
+}
+
+// Colour step between the rows above and below row boundary `y`, over three columns.
+float StepAcross(const cv::Mat& bgr, int x, int y) {
+  const std::uint8_t* above = bgr.ptr(y - 1) + 3 * (x - 1);
+  const std::uint8_t* below = bgr.ptr(y) + 3 * (x - 1);
+  int step[3] = {0, 0, 0};
+  for (int k = 0; k < 9; ++k) step[k % 3] += below[k] - above[k];
+  return static_cast<float>(std::max({std::abs(step[0]), std::abs(step[1]), std::abs(step[2])}));
+}
+
+// Moves seen rows to the strongest step of the input picture within a row of the reduced one, to a
+// fraction of a pixel (parabola through three steps).
+void SharpenRows(const cv::Mat& bgr, double row_px, Skyline& skyline) {
+  const int reach = static_cast<int>(std::ceil(1.5 * row_px));
+  std::vector<float> steps(static_cast<std::size_t>(2 * reach + 1));
+  for (std::size_t c = 0; c < skyline.size(); ++c) {
+    if (skyline.columns[c] != SkylineColumn::kSeen) continue;
+    const int x = std::clamp(static_cast<int>(skyline.XOf(c)), 1, bgr.cols - 2);
+    const int first = static_cast<int>(std::lround(skyline.y_px[c])) - reach;
+    if (first < 1 || first + 2 * reach > bgr.rows - 1) continue;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      steps[i] = StepAcross(bgr, x, first + static_cast<int>(i));
+    }
+    const auto peak = std::max_element(steps.begin(), steps.end());
+    const auto k = peak - steps.begin();
+    float fraction = 0.0f;
+    if (k > 0 && k + 1 < static_cast<std::ptrdiff_t>(steps.size())) {
+      const float curvature = peak[-1] - 2.0f * peak[0] + peak[1];
+      if (curvature < 0.0f) fraction = 0.5f * (peak[-1] - peak[1]) / curvature;
+    }
+    skyline.y_px[c] = static_cast<float>(first + k) + fraction;
+  }
+}
+
+// States this close to the best one are the same boundary, not another one.
+constexpr int kSameBoundary = 3;
+
 }  // namespace
 
 void SkylineOptions::Validate() const {
@@ -104,15 +154,11 @@ void SkylineOptions::Validate() const {
 }
 
 Skyline ExtractSkyline(const cv::Mat& bgr, const SkylineOptions& options) {
-  cv::Mat work = bgr;
-  if (bgr.cols > options.work_width_px) {
-    const double scale = static_cast<double>(options.work_width_px) / bgr.cols;
-    const int rows = std::max(4, static_cast<int>(std::lround(bgr.rows * scale)));
-    cv::resize(bgr, work, {options.work_width_px, rows}, 0, 0, cv::INTER_AREA);
-  }
+  const cv::Mat work = Reduced(bgr, options.work_width_px);
   cv::Mat log_odds;
   cv::resize(SkyLogOdds(work, options.sky), log_odds, work.size(), 0, 0, cv::INTER_LINEAR);
-  const ColumnPath path = CheapestColumnPath(BoundaryCosts(work, log_odds, options), 3);
+  const ColumnPath path = CheapestColumnPath(BoundaryCosts(work, log_odds, options), kSameBoundary);
+  const std::vector<float> foliage = FoliageAlong(work, log_odds, path.states);
 
   Skyline skyline;
   skyline.image_width = bgr.cols;
@@ -120,16 +166,17 @@ Skyline ExtractSkyline(const cv::Mat& bgr, const SkylineOptions& options) {
   skyline.column_step_px = static_cast<double>(bgr.cols) / work.cols;
   const double row_px = static_cast<double>(bgr.rows) / work.rows;
   for (std::size_t c = 0; c < path.states.size(); ++c) {
-    const int state = path.states[c];
-    const double confidence = 1.0 - std::exp(-path.margins[c] / options.margin_scale);
-    skyline.y_px.push_back(static_cast<float>(state * row_px));
-    skyline.confidence.push_back(static_cast<float>(confidence));
+    const double margin = 1.0 - std::exp(-path.margins[c] / options.margin_scale);
+    const float confidence = static_cast<float>(margin) * (1.0f - foliage[c]);
     SkylineColumn column = SkylineColumn::kSeen;
-    if (state == 0) column = SkylineColumn::kAboveImage;
-    if (state == work.rows) column = SkylineColumn::kBelowImage;
+    if (path.states[c] == 0) column = SkylineColumn::kAboveImage;
+    if (path.states[c] == work.rows) column = SkylineColumn::kBelowImage;
     if (confidence < options.min_confidence) column = SkylineColumn::kUnknown;
+    skyline.y_px.push_back(static_cast<float>(path.states[c] * row_px));
+    skyline.confidence.push_back(column == SkylineColumn::kUnknown ? 0.0f : confidence);
     skyline.columns.push_back(column);
   }
+  SharpenRows(bgr, row_px, skyline);
   return skyline;
 }
 
