@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "skyline/reduce.h"
 #include "skyline/sky_features.h"
 #include "skyline/sky_seeds.h"
 
@@ -82,12 +83,7 @@ void SkyLikelihoodOptions::Validate() const {
 }
 
 cv::Mat SkyLogOdds(const cv::Mat& bgr, const SkyLikelihoodOptions& options) {
-  cv::Mat small = bgr;
-  if (bgr.cols > options.work_width_px) {
-    const double scale = static_cast<double>(options.work_width_px) / bgr.cols;
-    const int rows = std::max(1, static_cast<int>(std::lround(bgr.rows * scale)));
-    cv::resize(bgr, small, {options.work_width_px, rows}, 0, 0, cv::INTER_AREA);
-  }
+  const cv::Mat small = ReducedToWidth(bgr, options.work_width_px);
   const SkyFeatures f = MeasureSkyFeatures(small);
   const cv::Mat prior = PriorLogOdds(small, f);
   cv::Mat log_odds = prior.clone();

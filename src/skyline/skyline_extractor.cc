@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "skyline/column_path.h"
 #include "skyline/foliage.h"
+#include "skyline/reduce.h"
 
 namespace ridgeline {
 namespace {
@@ -91,15 +92,6 @@ ColumnCosts BoundaryCosts(const cv::Mat& bgr, const cv::Mat& log_odds, const Sky
   return costs;
 }
 
-cv::Mat Reduced(const cv::Mat& bgr, int width) {
-  if (bgr.cols <= width) return bgr;
-  const double scale = static_cast<double>(width) / bgr.cols;
-  const int rows = std::max(4, static_cast<int>(std::lround(bgr.rows * scale)));
-  cv::Mat reduced;
-  cv::resize(bgr, reduced, {width, rows}, 0, 0, cv::INTER_AREA);
-  return reduced;
-}
-
 // Colour step between the rows above and below row boundary `y`, over three columns.
 float StepAcross(const cv::Mat& bgr, int x, int y) {
   const std::uint8_t* above = bgr.ptr(y - 1) + 3 * (x - 1);
@@ -154,7 +146,7 @@ void SkylineOptions::Validate() const {
 }
 
 Skyline ExtractSkyline(const cv::Mat& bgr, const SkylineOptions& options) {
-  const cv::Mat work = Reduced(bgr, options.work_width_px);
+  const cv::Mat work = ReducedToWidth(bgr, options.work_width_px);
   cv::Mat log_odds;
   cv::resize(SkyLogOdds(work, options.sky), log_odds, work.size(), 0, 0, cv::INTER_LINEAR);
   const ColumnPath path = CheapestColumnPath(BoundaryCosts(work, log_odds, options), kSameBoundary);
