@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "optim/tpe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace ridgeline {
+namespace {
+
+constexpr std::size_t kFullWeights = 25;
+
+bool Finished(TrialState state) {
+  return state == TrialState::kComplete || state == TrialState::kInfeasible;
+}
+
+std::size_t BestRatio(const std::vector<double>& good, const std::vector<double>& other) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < good.size(); ++i) {
+    if (good[i] - other[i] > good[best] - other[best]) best = i;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<double> TpeWeights(std::size_t n) {
+  std::vector<double> weights(n, 1.0);
+  if (n <= kFullWeights) return weights;
+  const std::size_t ramp = n - kFullWeights;
+  const double first = 1.0 / static_cast<double>(n);
+  for (std::size_t i = 0; i < ramp; ++i) {
+    const double along = ramp > 1 ? static_cast<double>(i) / static_cast<double>(ramp - 1) : 0.0;
+    weights[i] = first + along * (1.0 - first);
+  }
+  return weights;
+}
+
+TpeStrategy::TpeStrategy(const StrategyContext& context, const TpeOptions& options, TpeModel model)
+    : context_(context),
+      options_(options),
+      model_(model),
+      columns_(context.dimension),
+      by_value_(context.dimension) {}
+
+std::optional<UnitPoint> TpeStrategy::Propose(std::int64_t id) {
+  if (id != last_id_) rejections_ = 0;
+  last_id_ = id;
+  const UnitPoint point = Draw();
+  Entry entry;
+  entry.id = id;
+  entry.energy = std::numeric_limits<double>::infinity();
+  Insert(entry, point);
+  return point;
+}
+
+void TpeStrategy::Reject(std::int64_t) {
+  ++rejections_;
+  Remove(entries_.size() - 1);
+}
+
+void TpeStrategy::Observe(std::int64_t id,
+                          const UnitPoint& point,
+                          double energy,
+                          TrialState state) {
+  const auto it = std::lower_bound(entries_.begin(),
+                                   entries_.end(),
+                                   id,
+                                   [](const Entry& entry, std::int64_t i) { return entry.id < i; });
+  const bool known = it != entries_.end() && it->id == id;
+  if (Finished(state)) ++finished_;
+  if (!known) {
+    // A point that this strategy did not propose has the highest id so far, or is the first guess.
+    Entry entry;
+    entry.id = id;
+    entry.energy = energy;
+    entry.state = state;
+    if (Finished(state)) Insert(entry, point);
+  } else if (Finished(state)) {
+    it->energy = energy;
+    it->state = state;
+  } else {
+    Remove(it - entries_.begin());
+  }
+}
+
+void TpeStrategy::Insert(const Entry& entry, const UnitPoint& point) {
+  const auto it = std::upper_bound(entries_.begin(),
+                                   entries_.end(),
+                                   entry.id,
+                                   [](std::int64_t i, const Entry& e) { return i < e.id; });
+  const std::size_t index = it - entries_.begin();
+  entries_.insert(it, entry);
+  for (std::size_t d = 0; d < context_.dimension; ++d) {
+    std::vector<double>& column = columns_[d];
+    column.insert(column.begin() + index, point[d]);
+    std::vector<std::size_t>& order = by_value_[d];
+    if (index + 1 < entries_.size()) {
+      for (std::size_t& i : order) i += i >= index ? 1 : 0;
+    }
+    const auto place =
+        std::upper_bound(order.begin(), order.end(), point[d], [&](double x, std::size_t i) {
+          return x < column[i];
+        });
+    order.insert(place, index);
+  }
+}
+
+void TpeStrategy::Remove(std::size_t index) {
+  for (std::size_t d = 0; d < context_.dimension; ++d) {
+    std::vector<std::size_t>& order = by_value_[d];
+    order.erase(std::find(order.begin(), order.end(), index));
+    for (std::size_t& i : order) i -= i > index ? 1 : 0;
+    columns_[d].erase(columns_[d].begin() + index);
+  }
+  entries_.erase(entries_.begin() + index);
+}
+
+UnitPoint TpeStrategy::Draw() {
+  static const std::uint64_t kStage = HashText("optim.tpe");
+  Random random(context_.seed, kStage, draws_++);
+  if (finished_ < options_.startup_trials || rejections_ >= kPatience) return DrawUniform(random);
+  Split();
+  if (model_ == TpeModel::kMultivariate) return DrawJointly(random);
+  UnitPoint point(context_.dimension);
+  for (std::size_t d = 0; d < point.size(); ++d) point[d] = DrawCoordinate(d, random);
+  return point;
+}
+
+UnitPoint TpeStrategy::DrawUniform(Random& random) const {
+  UnitPoint point(context_.dimension);
+  for (double& u : point) u = random.Uniform();
+  return point;
+}
+
+// Marks the good trials and gives both groups their weights by age.
+void TpeStrategy::Split() {
+  const int good = std::clamp(static_cast<int>(std::ceil(options_.good_fraction * finished_)),
+                              1,
+                              std::min(options_.good_max, finished_));
+  std::vector<std::size_t> order(entries_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto rank = [this](std::size_t i) {
+    // Results by energy, the infeasible (infinity) last; then what is outstanding (constant liar).
+    return entries_[i].state == TrialState::kAsked ? 1 : 0;
+  };
+  const auto better = [&](std::size_t a, std::size_t b) {
+    if (rank(a) != rank(b)) return rank(a) < rank(b);
+    if (entries_[a].energy != entries_[b].energy) return entries_[a].energy < entries_[b].energy;
+    return a < b;
+  };
+  std::nth_element(order.begin(), order.begin() + good - 1, order.end(), better);
+  for (Entry& entry : entries_) entry.good = false;
+  for (int i = 0; i < good; ++i) entries_[order[i]].good = true;
+
+  const std::vector<double> good_weights = TpeWeights(good);
+  const std::vector<double> other_weights = TpeWeights(entries_.size() - good);
+  std::size_t next_good = 0;
+  std::size_t next_other = 0;
+  for (Entry& entry : entries_) {
+    entry.weight = entry.good ? good_weights[next_good++] : other_weights[next_other++];
+  }
+}
+
+ParzenOptions TpeStrategy::Parzen(BandwidthRule rule) const {
+  return {rule, options_.prior_weight, options_.magic_clip, options_.consider_endpoints};
+}
+
+double TpeStrategy::DrawCoordinate(std::size_t d, Random& random) const {
+  Columns points[2] = {Columns(1), Columns(1)};
+  std::vector<double> weights[2];
+  for (const std::size_t i : by_value_[d]) {
+    const int group = entries_[i].good ? 0 : 1;
+    points[group][0].push_back(columns_[d][i]);
+    weights[group].push_back(entries_[i].weight);
+  }
+  const ParzenOptions options = Parzen(BandwidthRule::kNeighbours);
+  const std::vector<bool> periodic = {context_.periodic[d]};
+  const ParzenEstimator good(points[0], weights[0], periodic, options);
+  const ParzenEstimator other(points[1], weights[1], periodic, options);
+  const Columns candidates = good.Sample(random, options_.candidates);
+  return candidates[0][BestRatio(good.LogDensities(candidates), other.LogDensities(candidates))];
+}
+
+UnitPoint TpeStrategy::DrawJointly(Random& random) const {
+  Columns points[2] = {Columns(context_.dimension), Columns(context_.dimension)};
+  std::vector<double> weights[2];
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const int group = entries_[i].good ? 0 : 1;
+    for (std::size_t d = 0; d < context_.dimension; ++d) {
+      points[group][d].push_back(columns_[d][i]);
+    }
+    weights[group].push_back(entries_[i].weight);
+  }
+  const ParzenOptions options = Parzen(BandwidthRule::kScott);
+  const ParzenEstimator good(points[0], weights[0], context_.periodic, options);
+  const ParzenEstimator other(points[1], weights[1], context_.periodic, options);
+  const Columns candidates = good.Sample(random, options_.candidates);
+  const std::size_t best =
+      BestRatio(good.LogDensities(candidates), other.LogDensities(candidates));
+  UnitPoint point;
+  for (const std::vector<double>& column : candidates) point.push_back(column[best]);
+  return point;
+}
+
+}  // namespace ridgeline
