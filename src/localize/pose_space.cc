@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "localize/pose_space.h"
+
+#include <cmath>
+
+#include "base/error.h"
+
+namespace ridgeline {
+namespace {
+
+void CheckRange(const char* name, double value, double upper) {
+  if (value >= 0.0 && value <= upper) return;
+  throw InputError("", std::string("search.") + name, std::to_string(value),
+                   "[0, " + std::to_string(upper) + "]");
+}
+
+// A camera below this height over the ground of the terrain model is under ground for certain.
+constexpr double kMinHeightAboveTerrain = 0.2;
+
+}  // namespace
+
+void PoseSpaceOptions::Validate() const {
+  constexpr double kMaxRange = 1000.0;
+  CheckRange("east_m", east_m, kMaxRange);
+  CheckRange("north_m", north_m, kMaxRange);
+  CheckRange("height_m", height_m, kMaxRange);
+  CheckRange("heading_deg", heading_deg, 180.0);
+  CheckRange("pitch_deg", pitch_deg, 90.0);
+  CheckRange("roll_deg", roll_deg, 180.0);
+  if (!(camera_height_m > 0.0 && camera_height_m <= kMaxRange)) {
+    throw InputError("", "search.camera_height_m", std::to_string(camera_height_m), "(0, 1000]");
+  }
+}
+
+PoseSpace::PoseSpace(const PosePrior& prior,
+                     const PoseSpaceOptions& options,
+                     const Scene& scene,
+                     const HeightGrid* dtm,
+                     const Footprints& footprints)
+    : ranges_(options),
+      scene_(scene),
+      dtm_(dtm),
+      footprints_(footprints),
+      center_(prior.position_in_world - scene.model().origin_in_world.head<2>()) {
+  const double sum = prior.position_in_world.sum() + prior.height_in_world.value_or(0.0) +
+                     prior.heading_deg.value_or(0.0) + prior.pitch_deg.value_or(0.0) +
+                     prior.roll_deg.value_or(0.0);
+  if (!std::isfinite(sum)) throw InputError("", "prior", "a value that is not finite", "numbers");
+  angles_ = {prior.heading_deg.value_or(0.0),
+             prior.pitch_deg.value_or(0.0),
+             prior.roll_deg.value_or(0.0)};
+  if (!prior.heading_deg) ranges_.heading_deg = 180.0;
+  if (prior.height_in_world) {
+    height_ = *prior.height_in_world - scene.model().origin_in_world.z();
+    return;
+  }
+  if (dtm_ == nullptr) {
+    throw InputError("", "prior.position", "no height and no DTM", "a height or --dtm");
+  }
+  if (!dtm_->HeightAt(center_)) {
+    throw InputError("", "prior.position", "a place the DTM does not cover", "a place on the DTM");
+  }
+}
+
+std::optional<Eigen::Vector3d> PoseSpace::PositionAt(double east_m,
+                                                     double north_m,
+                                                     double height_m) const {
+  const Eigen::Vector2d xy = center_ + Eigen::Vector2d(east_m, north_m);
+  const std::optional<double> ground = dtm_ != nullptr ? dtm_->HeightAt(xy) : std::nullopt;
+  if (!height_ && !ground) return std::nullopt;
+  const double z = (height_ ? *height_ : *ground + ranges_.camera_height_m) + height_m;
+  if (ranges_.free_space) {
+    if (dtm_ != nullptr && !ground) return std::nullopt;
+    if (ground && z < *ground + kMinHeightAboveTerrain) return std::nullopt;
+    if (IsInBuilding({xy.x(), xy.y(), z})) return std::nullopt;
+  }
+  return Eigen::Vector3d(xy.x(), xy.y(), z);
+}
+
+// Above a footprint is not inside it: a drone has no roof over it.
+bool PoseSpace::IsInBuilding(const Eigen::Vector3d& position) const {
+  return footprints_.Contains(position.head<2>()) &&
+         scene_.Raycast(position, Eigen::Vector3d::UnitZ()).has_value();
+}
+
+ViewAngles PoseSpace::AnglesAt(const Offset& offset) const {
+  return {WrapHeadingDeg(angles_.heading_deg + offset.heading_deg),
+          angles_.pitch_deg + offset.pitch_deg,
+          angles_.roll_deg + offset.roll_deg};
+}
+
+std::optional<Pose> PoseSpace::PoseAt(const Offset& offset) const {
+  const auto position = PositionAt(offset.east_m, offset.north_m, offset.height_m);
+  if (!position) return std::nullopt;
+  return Pose{CamFromWorld(AnglesAt(offset)), *position};
+}
+
+}  // namespace ridgeline

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "projection/scene.h"
+
+namespace ridgeline {
+
+// What an edge separates in the picture. How often an edge is seen in real pictures depends on it.
+enum class EdgeKind : std::uint8_t {
+  kSkyline,    // building against sky
+  kOcclusion,  // building against another building, or a wall before the ground behind it
+  kFold,       // two faces of one building: corner, eaves or ridge seen from inside its outline
+  kGround,     // foot of a wall
+  kSeam,       // adjoining facades in one plane
+};
+inline constexpr int kEdgeKinds = 5;
+
+EdgeKind KindOf(const VisiblePiece& piece, const Scene& scene);
+
+}  // namespace ridgeline

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "score/line_energy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+
+namespace ridgeline {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+float UndirectedAngle(const Eigen::Vector2f& d) {
+  const float angle = std::atan2(d.y(), d.x());
+  const float wrapped = angle < 0.0f ? angle + kPi : angle;
+  return wrapped < kPi ? wrapped : 0.0f;
+}
+
+}  // namespace
+
+void LineEnergyOptions::Validate() const {
+  if (!(max_angle_deg > 0.0 && max_angle_deg <= 90.0)) {
+    throw InputError("", "score.line_energy.max_angle_deg", std::to_string(max_angle_deg), "(0, 90]");
+  }
+  if (!(max_distance_width > 0.0)) {
+    throw InputError(
+        "", "score.line_energy.max_distance_width", std::to_string(max_distance_width), "> 0");
+  }
+}
+
+LineEnergy::LineEnergy(std::span<const LineSegment> picture,
+                       int width_px,
+                       const LineEnergyOptions& options)
+    : max_angle_rad_(static_cast<float>(options.max_angle_deg) * kPi / 180.0f),
+      max_distance_px_(static_cast<float>(options.max_distance_width * width_px)) {
+  segments_.reserve(picture.size());
+  for (const LineSegment& segment : picture) {
+    segments_.push_back({0.5f * (segment.a + segment.b), UndirectedAngle(segment.b - segment.a)});
+  }
+  std::stable_sort(segments_.begin(), segments_.end(), [](const Directed& x, const Directed& y) {
+    return x.angle < y.angle;
+  });
+}
+
+double LineEnergy::Energy(std::span<const LineSegment> model) const {
+  if (model.empty()) return 1.0;
+  double sum = 0.0;
+  for (const LineSegment& segment : model) {
+    const Eigen::Vector2f along = (segment.b - segment.a).normalized();
+    const float angle = UndirectedAngle(along);
+    double scores = 0.0;
+    int count = 0;
+    // Angles wrap at pi: the window is looked at in three copies of the circle.
+    for (const float shift : {-kPi, 0.0f, kPi}) {
+      const float lowest = angle + shift - max_angle_rad_;
+      auto it = std::lower_bound(segments_.begin(), segments_.end(), lowest,
+                                 [](const Directed& s, float value) { return s.angle < value; });
+      for (; it != segments_.end() && it->angle <= angle + shift + max_angle_rad_; ++it) {
+        const Eigen::Vector2f offset = it->middle - segment.a;
+        const float distance = std::abs(along.x() * offset.y() - along.y() * offset.x());
+        if (distance > max_distance_px_) continue;
+        scores += 1.0 - distance / max_distance_px_;
+        ++count;
+      }
+    }
+    if (count > 0) sum += scores / count;
+  }
+  return 1.0 - sum / static_cast<double>(model.size());
+}
+
+}  // namespace ridgeline

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "base/options.h"
+#include "projection/scene.h"
+#include "score/edge_kind.h"
+#include "score/oriented_distance_field.h"
+
+namespace ridgeline {
+
+struct LineLikelihoodOptions {
+  // Share of each kind of edge that shows as a line in pictures, in (0, 1).
+  std::vector<double> seen_share = {0.6, 0.5, 0.5, 0.2, 0.3};
+  // Standard deviation of a detected line about the projected edge: of the detection [share of the
+  // picture's width] and of the model across the edge [m].
+  double sigma_width = 0.0025;
+  double sigma_model_m = 0.25;
+  // Spacing of samples along an edge [share of the picture's width].
+  double spacing_width = 0.008;
+
+  void Visit(OptionVisitor& v) {
+    v.Field("seen_share", seen_share);
+    v.Field("sigma_width", sigma_width);
+    v.Field("sigma_model_m", sigma_model_m);
+    v.Field("spacing_width", spacing_width);
+  }
+  void Validate() const;
+};
+
+// Log likelihood ratio of the picture's lines given the projected edges against lines at random with
+// the density rho [px / px^2] that the picture has there. The nearest line to a sample of an edge is
+// the edge's own, seen with probability v and half-normal distance h (wider towards the camera: model
+// errors are metres, not pixels), or the nearest random one, exponential with 2 rho. Its distance d
+// then counts log(1 - v + v * (h(d) / (2 rho) + P_h(> d))).
+class LineLikelihood {
+ public:
+  LineLikelihood(const OrientedDistanceField& field,
+                 const PinholeCamera& camera,
+                 const LineLikelihoodOptions& options);
+
+  // Sums over all samples, by kind of edge. `kinds` per piece of the visible set that the segments
+  // come from.
+  std::array<float, kEdgeKinds> LogRatios(std::span<const ProjectedSegment> segments,
+                                          std::span<const EdgeKind> kinds) const;
+
+ private:
+  static constexpr int kSigmaLevels = 12;
+  static constexpr int kDistances = 256;
+
+  const float* Table(EdgeKind kind, int sigma_level, int density_level) const {
+    return &table_[((static_cast<std::size_t>(kind) * kSigmaLevels + sigma_level) *
+                        OrientedDistanceField::kDensityLevels +
+                    density_level) *
+                   kDistances];
+  }
+  int SigmaLevel(float inverse_depth) const;
+
+  const OrientedDistanceField& field_;
+  float spacing_px_ = 1.0f;
+  float sigma_px_ = 1.0f;
+  float sigma_model_px_m_ = 0.0f;  // f * sigma_model [px m]
+  std::vector<float> table_;
+};
+
+}  // namespace ridgeline

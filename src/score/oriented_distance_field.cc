@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "score/oriented_distance_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+
+namespace ridgeline {
+namespace {
+
+// A segment counts for every direction bin whose centre is within this of its own: half a bin and
+// the uncertainty of a short segment's direction.
+constexpr double kDirectionToleranceDeg = 9.0;
+// Window over which the density of segments is averaged.
+constexpr double kDensitySigmaPx = 32.0;
+constexpr double kSmallestDensity = 1e-3;
+constexpr double kLevelRatio = 1.4;
+
+double BinCenterDeg(int direction) {
+  return (direction + 0.5) * 180.0 / OrientedDistanceField::kDirections;
+}
+
+double DirectionDeg(const LineSegment& segment) {
+  const Eigen::Vector2f d = segment.b - segment.a;
+  return std::atan2(d.y(), d.x()) * 180.0 / std::numbers::pi;
+}
+
+double UndirectedDifferenceDeg(double a, double b) {
+  const double d = std::fmod(std::abs(a - b), 180.0);
+  return std::min(d, 180.0 - d);
+}
+
+}  // namespace
+
+int OrientedDistanceField::DirectionOf(float dx, float dy) {
+  const float turns = std::atan2(dy, dx) * std::numbers::inv_pi_v<float>;  // in half turns
+  const int bin = static_cast<int>(std::floor(turns * kDirections));
+  return (bin + kDirections) % kDirections;
+}
+
+float OrientedDistanceField::DensityOfLevel(int level) {
+  return static_cast<float>(kSmallestDensity * std::pow(kLevelRatio, level));
+}
+
+OrientedDistanceField::OrientedDistanceField(const std::vector<LineSegment>& segments,
+                                             int width,
+                                             int height)
+    : width_(width),
+      height_(height),
+      cell_columns_((width + kDensityCellPx - 1) / kDensityCellPx),
+      cell_rows_((height + kDensityCellPx - 1) / kDensityCellPx),
+      distances_(static_cast<std::size_t>(kDirections) * width * height),
+      densities_(static_cast<std::size_t>(kDirections) * cell_columns_ * cell_rows_) {
+  constexpr int kShift = 4;  // sub-pixel bits of cv::line
+  const auto fixed = [](const Eigen::Vector2f& p) {
+    return cv::Point(static_cast<int>(std::lround((p.x() - 0.5f) * (1 << kShift))),
+                     static_cast<int>(std::lround((p.y() - 0.5f) * (1 << kShift))));
+  };
+  for (int direction = 0; direction < kDirections; ++direction) {
+    cv::Mat free(height, width, CV_8U, cv::Scalar(255));
+    for (const LineSegment& segment : segments) {
+      if (UndirectedDifferenceDeg(DirectionDeg(segment), BinCenterDeg(direction)) <=
+          kDirectionToleranceDeg) {
+        cv::line(free, fixed(segment.a), fixed(segment.b), cv::Scalar(0), 1, cv::LINE_8, kShift);
+      }
+    }
+    cv::Mat distance;
+    cv::distanceTransform(free, distance, cv::DIST_L2, cv::DIST_MASK_5, CV_32F);
+    cv::Mat units(height,
+                  width,
+                  CV_8U,
+                  distances_.data() + static_cast<std::size_t>(direction) * width * height);
+    distance.convertTo(units, CV_8U, kUnitsPerPx);
+
+    cv::Mat density;
+    cv::Mat on_line = 1.0 - free / 255.0;
+    on_line.convertTo(on_line, CV_32F);
+    cv::resize(on_line, density, cv::Size(cell_columns_, cell_rows_), 0.0, 0.0, cv::INTER_AREA);
+    cv::GaussianBlur(density, density, cv::Size(), kDensitySigmaPx / kDensityCellPx);
+    for (int i = 0; i < cell_rows_ * cell_columns_; ++i) {
+      const double rho = std::max<double>(density.ptr<float>()[i], kSmallestDensity);
+      const double level = std::log(rho / kSmallestDensity) / std::log(kLevelRatio);
+      densities_[static_cast<std::size_t>(direction) * cell_rows_ * cell_columns_ + i] =
+          static_cast<std::uint8_t>(std::clamp(std::lround(level), 0L, kDensityLevels - 1L));
+    }
+  }
+}
+
+}  // namespace ridgeline
