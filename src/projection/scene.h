@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
-#include <opencv2/core/mat.hpp>
 #include <optional>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "camera/pose.h"
 #include "city/city_model.h"
 #include "city/terrain.h"
+#include "projection/view_buffers.h"
 
 namespace ridgeline {
 
@@ -23,18 +23,22 @@ enum class Beside : std::uint8_t { kSky, kOwnWall, kOwnRoof, kOtherBuilding, kGr
 struct VisiblePiece {
   Eigen::Vector3f a = Eigen::Vector3f::Zero();  // ends, local frame [m]
   Eigen::Vector3f b = Eigen::Vector3f::Zero();
-  std::uint32_t edge = 0;  // index into CityModel::feature_edges
+  // Index into CityModel::feature_edges; beyond its end a fold below the model's least angle that
+  // is a silhouette from here (Scene::edge knows both).
+  std::uint32_t edge = 0;
   // Seen from the position, walking from a to b with up = +height: what lies to the left and right.
   Beside left = Beside::kSky;
   Beside right = Beside::kSky;
 };
 
-// Everything visible from one position, in all directions of a sector.
+// Everything visible from one position, in all directions of a sector. An edge that reaches into
+// the sector comes as a whole.
 struct VisibleSet {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // local [m]
   std::vector<VisiblePiece> pieces;                    // ordered by edge, then along the edge
   // Elevation angle [rad] of the skyline (buildings and terrain) at azimuths
-  // first_azimuth + i * azimuth_step (clockwise from north) [rad].
+  // first_azimuth + i * azimuth_step (clockwise from north) [rad]. At least 0: beyond the model
+  // and the terrain the ground goes on to the horizon.
   double first_azimuth = 0.0;
   double azimuth_step = 0.0;
   std::vector<float> skyline_elevation;
@@ -51,27 +55,29 @@ struct ProjectionOptions {
   double max_distance_m = 400.0;
   // Shortest visible piece kept, as seen from the position [mrad]; about a pixel.
   double min_piece_mrad = 2.0;
-  // Spacing of the virtual skyline's azimuths [mrad].
+  // Largest spacing of the virtual skyline's azimuths [mrad].
   double skyline_step_mrad = 2.0;
+  // An edge is hidden by a model face only where it lies deeper than this behind the face's plane
+  // [m]: it does not hide behind its own faces, nor behind walls that should be coplanar.
+  double surface_tolerance_m = 0.03;
+  // The same for the terrain: the ground lines of walls are that uncertain.
+  double terrain_tolerance_m = 0.3;
+  // Largest height error of the triangles that stand for the terrain model [m].
+  double terrain_error_m = 0.1;
 
   void Visit(OptionVisitor& v) {
     v.Field("max_distance_m", max_distance_m);
     v.Field("min_piece_mrad", min_piece_mrad);
     v.Field("skyline_step_mrad", skyline_step_mrad);
+    v.Field("surface_tolerance_m", surface_tolerance_m);
+    v.Field("terrain_tolerance_m", terrain_tolerance_m);
+    v.Field("terrain_error_m", terrain_error_m);
   }
   // Throws InputError naming the field, e.g. "projection.max_distance_m".
   void Validate() const;
 };
 
-// Depth [m along the optical axis] and surface index per pixel; infinity / kNoSurface: sky.
-// The terrain has the index kTerrainSurface.
-inline constexpr std::uint32_t kTerrainSurface = 0xFFFFFFFEu;
-struct ViewBuffers {
-  cv::Mat depth;                        // CV_32F
-  std::vector<std::uint32_t> surfaces;  // row-major
-};
-
-// The model and the terrain around it as a ray scene. Thread-safe after construction.
+// The model and the terrain around it. Thread-safe after construction.
 class Scene {
  public:
   // The model must outlive the scene; `dtm` may be null (then nothing hides behind hills).
@@ -79,16 +85,27 @@ class Scene {
   ~Scene();
   Scene(Scene&&) noexcept;
 
-  // Visible pieces of feature edges and silhouettes from `position` (local) within the sector.
+  // Visible pieces of feature edges and silhouettes from `position` (local) within the sector,
+  // exact: the shadows of all faces are cut out of each edge. Inside a closed building or below
+  // the terrain there are none. A ray that hits nothing sees the ground below the horizontal
+  // (VisiblePiece::left, right), else the sky.
   VisibleSet VisibleFrom(const Eigen::Vector3d& position, const Sector& sector) const;
 
-  // One ray per pixel centre.
-  ViewBuffers Render(const PinholeCamera& camera, const Pose& cam_from_local) const;
+  // One ray per pixel centre. Pixels that hit neither model nor terrain are sky.
+  ViewBuffers Render(const PinholeCamera& camera,
+                     const Pose& cam_from_local,
+                     bool with_normals = false) const;
 
   // Distance [m] to the first hit of a ray, nullopt: sky.
   std::optional<double> Raycast(const Eigen::Vector3d& from, const Eigen::Vector3d& direction) const;
 
   const CityModel& model() const;
+  const ProjectionOptions& options() const;
+  // The edge of VisiblePiece::edge.
+  const FeatureEdge& edge(std::uint32_t index) const;
+  std::size_t edge_count() const;
+  // Of the ray and occlusion structures, without the model.
+  std::size_t memory_bytes() const;
 
  private:
   struct Impl;
@@ -101,6 +118,8 @@ struct ProjectedSegment {
   Eigen::Vector2f b = Eigen::Vector2f::Zero();
   std::uint32_t piece = 0;  // index into VisibleSet::pieces
   float depth = 0.0f;       // of the middle, along the optical axis [m]
+  float inverse_depth_a = 0.0f;  // of the ends [1 / m]; linear along the segment in the image
+  float inverse_depth_b = 0.0f;
 };
 
 // Projects the pieces into the image, clipped to the near plane (0.1 m) and to the image. Appends to

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "projection/occluder_bvh.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "projection/bvh_build.h"
+#include "projection/simd4.h"
+
+namespace ridgeline {
+namespace {
+
+using simd::Dot;
+using simd::Float4;
+using simd::Max;
+using simd::Min;
+using simd::Splat;
+using simd::Vec3x4;
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+// Shadows of neighbouring triangles meet within the rounding of floats.
+constexpr float kJoin = 4e-6f;
+
+struct Node {
+  Vec3x4 center;
+  Vec3x4 extent;
+  std::array<std::int32_t, 4> children;
+};
+
+// Four triangles; unused places have zero normals and so never hide anything.
+struct Leaf {
+  Vec3x4 a, b, c;
+  Vec3x4 normal;  // unit; zero for a degenerate triangle
+  Float4 tolerance;
+};
+
+Float4 Abs(Float4 v) { return Max(v, -v); }
+Vec3x4 Splat3(const Eigen::Vector3f& v) { return {Splat(v.x()), Splat(v.y()), Splat(v.z())}; }
+Vec3x4 Abs3(const Vec3x4& v) { return {Abs(v.x), Abs(v.y), Abs(v.z)}; }
+
+// A plane through the eye (or, with an offset, beside it) and the reach of boxes across it.
+struct Halfspace {
+  Vec3x4 normal;
+  Vec3x4 reach;
+
+  explicit Halfspace(const Eigen::Vector3f& n) : normal(Splat3(n)), reach(Abs3(normal)) {}
+  // Largest value of normal * x over the boxes.
+  Float4 Highest(const Vec3x4& center, const Vec3x4& extent) const {
+    return Dot(normal, center) + Dot(reach, extent);
+  }
+  // Distance of the boxes from the plane, <= 0 if they touch it.
+  Float4 Distance(const Vec3x4& center, const Vec3x4& extent) const {
+    return Abs(Dot(normal, center)) - Dot(reach, extent);
+  }
+};
+
+// The plane triangle eye, a, b: the region in which something can hide a part of a-b.
+struct Wedge {
+  Halfspace plane, side_a, side_b, behind;
+  Float4 behind_offset;
+
+  Wedge(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& normal)
+      : plane(normal),
+        side_a(normal.cross(a)),
+        side_b(b.cross(normal)),
+        behind(BehindNormal(a, b, normal)) {
+    behind_offset = Splat(BehindNormal(a, b, normal).dot(a));
+  }
+
+  // Points towards the eye, across the line a-b in the wedge's plane.
+  static Eigen::Vector3f BehindNormal(const Eigen::Vector3f& a,
+                                      const Eigen::Vector3f& b,
+                                      const Eigen::Vector3f& normal) {
+    const Eigen::Vector3f n = normal.cross(b - a);
+    return n.dot(a) > 0.0f ? Eigen::Vector3f(-n) : n;
+  }
+
+  // > 0 for boxes that lie outside.
+  Float4 Outside(const Vec3x4& center, const Vec3x4& extent) const {
+    const Float4 across = plane.Distance(center, extent);
+    const Float4 before_a = -side_a.Highest(center, extent);
+    const Float4 after_b = -side_b.Highest(center, extent);
+    const Float4 beyond = behind_offset - behind.Highest(center, extent);
+    return Max(Max(across, beyond), Max(before_a, after_b));
+  }
+};
+
+// Keeps the parameters where a value going linearly from `at_a` to `at_b` is >= 0.
+void Clip(Float4 at_a, Float4 at_b, Float4& first, Float4& last) {
+  const Float4 slope = at_b - at_a;
+  const Float4 zero = -at_a / slope;
+  const Float4 none = Splat(-kInfinity);
+  const Float4 all = Splat(kInfinity);
+  first = Max(first, slope > 0.0f ? zero : none);
+  const Float4 flat_last = at_a >= 0.0f ? all : none;
+  last = Min(last, slope < 0.0f ? zero : (slope > 0.0f ? all : flat_last));
+}
+
+// Shadows of a leaf's triangles on the segment a-b; empty where first >= last.
+void Shadows(const Leaf& leaf,
+             const Vec3x4& eye,
+             const Vec3x4& a,
+             const Vec3x4& b,
+             Float4& first,
+             Float4& last) {
+  const Vec3x4 va = leaf.a - eye;
+  const Vec3x4 vb = leaf.b - eye;
+  const Vec3x4 vc = leaf.c - eye;
+  const Float4 height = Dot(leaf.normal, va);
+  const Float4 sign = height > 0.0f ? Splat(1.0f) : Splat(-1.0f);
+  first = Splat(0.0f);
+  last = Splat(1.0f);
+  // Behind the plane, as seen from the eye.
+  const Float4 depth = Abs(height) + leaf.tolerance;
+  Clip(sign * Dot(leaf.normal, a) - depth, sign * Dot(leaf.normal, b) - depth, first, last);
+  // Inside the three planes through the eye and the sides.
+  const Vec3x4 ab = Cross(va, vb);
+  const Vec3x4 bc = Cross(vb, vc);
+  const Vec3x4 ca = Cross(vc, va);
+  Clip(sign * Dot(ab, a), sign * Dot(ab, b), first, last);
+  Clip(sign * Dot(bc, a), sign * Dot(bc, b), first, last);
+  Clip(sign * Dot(ca, a), sign * Dot(ca, b), first, last);
+}
+
+void AddHidden(Interval added, std::vector<Interval>& hidden) {
+  std::size_t begin = 0;
+  while (begin < hidden.size() && hidden[begin].last < added.first - kJoin) ++begin;
+  std::size_t end = begin;
+  while (end < hidden.size() && hidden[end].first <= added.last + kJoin) {
+    added.first = std::min(added.first, hidden[end].first);
+    added.last = std::max(added.last, hidden[end].last);
+    ++end;
+  }
+  if (begin == end) {
+    hidden.insert(hidden.begin() + static_cast<std::ptrdiff_t>(begin), added);
+    return;
+  }
+  hidden[begin] = added;
+  hidden.erase(hidden.begin() + static_cast<std::ptrdiff_t>(begin) + 1,
+               hidden.begin() + static_cast<std::ptrdiff_t>(end));
+}
+
+bool HasGap(const std::vector<Interval>& hidden, float min_part) {
+  float start = 0.0f;
+  for (const Interval& part : hidden) {
+    if (part.first - start >= min_part) return true;
+    start = part.last;
+  }
+  return 1.0f - start >= min_part;
+}
+
+}  // namespace
+
+struct OccluderBvh::Impl {
+  std::vector<Node> nodes;
+  std::vector<Leaf> leaves;
+};
+
+namespace {
+
+void SetLane(Vec3x4& target, int lane, const Eigen::Vector3f& value) {
+  target.x[lane] = value.x();
+  target.y[lane] = value.y();
+  target.z[lane] = value.z();
+}
+
+Leaf MakeLeaf(const BoxTree::Leaf& source, const std::vector<OccluderTriangle>& triangles) {
+  Leaf leaf{};
+  for (std::size_t k = 0; k < source.primitives.size(); ++k) {
+    const OccluderTriangle& t = triangles[source.primitives[k]];
+    const int lane = static_cast<int>(k);
+    SetLane(leaf.a, lane, t.a);
+    SetLane(leaf.b, lane, t.b);
+    SetLane(leaf.c, lane, t.c);
+    const Eigen::Vector3d normal =
+        (t.b - t.a).cast<double>().cross((t.c - t.a).cast<double>());
+    const double length = normal.norm();
+    // Zero area, to a millimetre squared: nothing can hide behind it.
+    if (length > 1e-6) SetLane(leaf.normal, lane, (normal / length).cast<float>());
+    leaf.tolerance[lane] = t.tolerance_m;
+  }
+  return leaf;
+}
+
+Node MakeNode(const BoxTree::Node& source) {
+  Node node{};
+  node.children = source.children;
+  for (int k = 0; k < 4; ++k) {
+    if (source.children[k] == BoxTree::kNone) {
+      SetLane(node.extent, k, Eigen::Vector3f::Constant(-kInfinity));
+      continue;
+    }
+    SetLane(node.center, k, source.boxes[k].center());
+    // A millimetre against rounding; flat boxes are common.
+    SetLane(node.extent, k, (source.boxes[k].sizes() * 0.5f).array() + 1e-3f);
+  }
+  return node;
+}
+
+}  // namespace
+
+OccluderBvh::OccluderBvh(const std::vector<OccluderTriangle>& triangles)
+    : impl_(std::make_unique<Impl>()) {
+  std::vector<Eigen::AlignedBox3f> boxes(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    boxes[i].extend(triangles[i].a).extend(triangles[i].b).extend(triangles[i].c);
+  }
+  const BoxTree tree = BuildBoxTree(boxes, 4);
+  impl_->nodes.reserve(tree.nodes.size());
+  for (const BoxTree::Node& node : tree.nodes) impl_->nodes.push_back(MakeNode(node));
+  impl_->leaves.reserve(tree.leaves.size());
+  for (const BoxTree::Leaf& leaf : tree.leaves) {
+    impl_->leaves.push_back(MakeLeaf(leaf, triangles));
+  }
+}
+
+OccluderBvh::~OccluderBvh() = default;
+
+std::size_t OccluderBvh::memory_bytes() const {
+  return impl_->nodes.size() * sizeof(Node) + impl_->leaves.size() * sizeof(Leaf);
+}
+
+void OccluderBvh::VisibleParts(const Eigen::Vector3f& eye,
+                               const Eigen::Vector3f& a,
+                               const Eigen::Vector3f& b,
+                               float min_part,
+                               Workspace& workspace,
+                               std::vector<Interval>& visible) const {
+  visible.clear();
+  std::vector<Interval>& hidden = workspace.hidden;
+  hidden.clear();
+  const Eigen::Vector3f normal = a.cross(b);
+  if (impl_->nodes.empty() || normal.squaredNorm() == 0.0f) {
+    if (impl_->nodes.empty()) visible.push_back({0.0f, 1.0f});
+    return;
+  }
+  const Vec3x4 eye4 = Splat3(eye);
+  const Vec3x4 a4 = Splat3(a);
+  const Vec3x4 b4 = Splat3(b);
+
+  // Returns false when nothing is left of the segment.
+  const auto cast_leaf = [&](std::uint32_t index) {
+    Float4 first, last;
+    Shadows(impl_->leaves[index], eye4, a4, b4, first, last);
+    bool changed = false;
+    for (int k = 0; k < 4; ++k) {
+      if (!(first[k] < last[k])) continue;
+      AddHidden({first[k], last[k]}, hidden);
+      changed = true;
+    }
+    if (!changed || HasGap(hidden, min_part)) return true;
+    workspace.last_leaf = index;
+    return false;
+  };
+
+  if (workspace.last_leaf < impl_->leaves.size() && !cast_leaf(workspace.last_leaf)) return;
+
+  const Wedge wedge(a, b, normal.normalized());
+  struct Entry {
+    float distance2;
+    std::int32_t child;
+  };
+  std::array<Entry, 256> stack;
+  std::size_t size = 0;
+  stack[size++] = {0.0f, 0};
+  while (size > 0) {
+    const std::int32_t child = stack[--size].child;
+    if (child < 0) {
+      if (!cast_leaf(static_cast<std::uint32_t>(~child))) return;
+      continue;
+    }
+    const Node& node = impl_->nodes[child];
+    const Vec3x4 center = node.center - eye4;
+    const Float4 outside = wedge.Outside(center, node.extent);
+    const Float4 zero = Splat(0.0f);
+    const Vec3x4 gap{Max(Abs(center.x) - node.extent.x, zero),
+                     Max(Abs(center.y) - node.extent.y, zero),
+                     Max(Abs(center.z) - node.extent.z, zero)};
+    const Float4 distance2 = Dot(gap, gap);
+    // Insertion keeps the nearest child on top of the stack.
+    const std::size_t bottom = size;
+    for (int k = 0; k < 4; ++k) {
+      if (outside[k] > 0.0f || node.children[k] == BoxTree::kNone) continue;
+      const Entry entry{distance2[k], node.children[k]};
+      std::size_t place = size++;
+      while (place > bottom && stack[place - 1].distance2 < entry.distance2) {
+        stack[place] = stack[place - 1];
+        --place;
+      }
+      stack[place] = entry;
+    }
+  }
+  float start = 0.0f;
+  for (const Interval& part : hidden) {
+    if (part.first - start >= min_part) visible.push_back({start, part.first});
+    start = part.last;
+  }
+  if (1.0f - start >= min_part) visible.push_back({start, 1.0f});
+}
+
+}  // namespace ridgeline

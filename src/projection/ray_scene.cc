@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "projection/ray_scene.h"
+
+#include <embree3/rtcore.h>
+
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace ridgeline {
+namespace {
+
+constexpr unsigned kModelGeometry = 0;
+constexpr unsigned kTerrainGeometry = 1;
+constexpr int kPacket = 8;
+
+bool CountMemory(void* counter, ssize_t bytes, bool) {
+  static_cast<std::atomic<std::int64_t>*>(counter)->fetch_add(bytes);
+  return true;
+}
+
+void AttachMesh(RTCDevice device,
+                RTCScene scene,
+                unsigned id,
+                std::size_t vertex_count,
+                std::size_t triangle_count,
+                const auto& vertex,
+                const auto& triangle) {
+  if (triangle_count == 0) return;
+  const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* const vertices = static_cast<float*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                              3 * sizeof(float), vertex_count));
+  for (std::size_t i = 0; i < vertex_count; ++i) {
+    Eigen::Map<Eigen::Vector3f>(vertices + 3 * i) = vertex(i);
+  }
+  auto* const indices = static_cast<std::uint32_t*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                              3 * sizeof(std::uint32_t), triangle_count));
+  for (std::size_t i = 0; i < triangle_count; ++i) {
+    for (int k = 0; k < 3; ++k) indices[3 * i + k] = triangle(i)[k];
+  }
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene, geometry, id);
+  rtcReleaseGeometry(geometry);
+}
+
+}  // namespace
+
+struct RayScene::Impl {
+  std::vector<std::uint32_t> surface_of_triangle;
+  std::atomic<std::int64_t> bytes{0};
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+
+  ~Impl() {
+    if (scene != nullptr) rtcReleaseScene(scene);
+    if (device != nullptr) {
+      rtcSetDeviceMemoryMonitorFunction(device, nullptr, nullptr);
+      rtcReleaseDevice(device);
+    }
+  }
+
+  std::uint32_t Surface(unsigned geometry, unsigned primitive) const {
+    return geometry == kTerrainGeometry ? kTerrainSurface : surface_of_triangle[primitive];
+  }
+};
+
+RayScene::RayScene(const CityModel& model, const TerrainMesh& terrain)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->device = rtcNewDevice("threads=1");
+  if (impl_->device == nullptr) throw std::runtime_error("Embree cannot be started");
+  rtcSetDeviceMemoryMonitorFunction(impl_->device, CountMemory, &impl_->bytes);
+  impl_->scene = rtcNewScene(impl_->device);
+  rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
+  AttachMesh(
+      impl_->device, impl_->scene, kModelGeometry, model.vertices.size(), model.triangles.size(),
+      [&](std::size_t i) -> Eigen::Vector3f { return model.vertices[i].cast<float>(); },
+      [&](std::size_t i) { return model.triangles[i].vertices; });
+  AttachMesh(
+      impl_->device, impl_->scene, kTerrainGeometry, terrain.vertices.size(),
+      terrain.triangles.size(), [&](std::size_t i) { return terrain.vertices[i]; },
+      [&](std::size_t i) { return terrain.triangles[i]; });
+  rtcCommitScene(impl_->scene);
+  impl_->surface_of_triangle.reserve(model.triangles.size());
+  for (const Triangle& triangle : model.triangles) {
+    impl_->surface_of_triangle.push_back(triangle.surface);
+  }
+}
+
+RayScene::~RayScene() = default;
+
+std::size_t RayScene::memory_bytes() const { return static_cast<std::size_t>(impl_->bytes); }
+
+std::optional<RayHit> RayScene::Cast(const Eigen::Vector3f& from,
+                                     const Eigen::Vector3f& direction,
+                                     float nearest) const {
+  RTCRayHit ray{};
+  ray.ray.org_x = from.x();
+  ray.ray.org_y = from.y();
+  ray.ray.org_z = from.z();
+  ray.ray.dir_x = direction.x();
+  ray.ray.dir_y = direction.y();
+  ray.ray.dir_z = direction.z();
+  ray.ray.tnear = nearest;
+  ray.ray.tfar = std::numeric_limits<float>::infinity();
+  ray.ray.mask = ~0u;
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(impl_->scene, &context, &ray);
+  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  return RayHit{ray.ray.tfar,
+                impl_->Surface(ray.hit.geomID, ray.hit.primID),
+                Eigen::Vector3f(ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z).normalized()};
+}
+
+ViewBuffers RayScene::Render(const PinholeCamera& camera,
+                             const Pose& cam_from_local,
+                             bool normals) const {
+  const float infinity = std::numeric_limits<float>::infinity();
+  ViewBuffers buffers;
+  buffers.depth = cv::Mat(camera.height, camera.width, CV_32F, cv::Scalar(infinity));
+  buffers.surfaces.assign(
+      static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height), kNoSurface);
+  if (normals) buffers.normals = cv::Mat::zeros(camera.height, camera.width, CV_32FC3);
+
+  const Eigen::Matrix3d local_from_cam =
+      cam_from_local.cam_from_world.toRotationMatrix().transpose();
+  // Rays have z = 1 in the camera, so that the distance along them is the depth.
+  const Eigen::Vector3f step_x = (local_from_cam.col(0) / camera.fx).cast<float>();
+  const Eigen::Vector3f origin = cam_from_local.center_in_world.cast<float>();
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  RTCRayHit8 rays{};
+  for (int k = 0; k < kPacket; ++k) {
+    rays.ray.org_x[k] = origin.x();
+    rays.ray.org_y[k] = origin.y();
+    rays.ray.org_z[k] = origin.z();
+    rays.ray.mask[k] = ~0u;
+  }
+  alignas(32) std::array<int, kPacket> valid{};
+  for (int y = 0; y < camera.height; ++y) {
+    const Eigen::Vector3f row_start =
+        (local_from_cam * camera.RayFromImage({0.5, y + 0.5})).cast<float>();
+    for (int x = 0; x < camera.width; x += kPacket) {
+      for (int k = 0; k < kPacket; ++k) {
+        const Eigen::Vector3f direction = row_start + static_cast<float>(x + k) * step_x;
+        rays.ray.dir_x[k] = direction.x();
+        rays.ray.dir_y[k] = direction.y();
+        rays.ray.dir_z[k] = direction.z();
+        rays.ray.tnear[k] = 0.0f;
+        rays.ray.tfar[k] = infinity;
+        rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+        valid[k] = x + k < camera.width ? -1 : 0;
+      }
+      rtcIntersect8(valid.data(), impl_->scene, &context, &rays);
+      for (int k = 0; k < kPacket && x + k < camera.width; ++k) {
+        if (rays.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) continue;
+        buffers.depth.at<float>(y, x + k) = rays.ray.tfar[k];
+        buffers.surfaces[static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width) +
+                         static_cast<std::size_t>(x + k)] =
+            impl_->Surface(rays.hit.geomID[k], rays.hit.primID[k]);
+        if (!normals) continue;
+        Eigen::Vector3f normal =
+            Eigen::Vector3f(rays.hit.Ng_x[k], rays.hit.Ng_y[k], rays.hit.Ng_z[k]).normalized();
+        const Eigen::Vector3f direction(rays.ray.dir_x[k], rays.ray.dir_y[k], rays.ray.dir_z[k]);
+        if (normal.dot(direction) > 0.0f) normal = -normal;
+        buffers.normals.at<cv::Vec3f>(y, x + k) = {normal.x(), normal.y(), normal.z()};
+      }
+    }
+  }
+  return buffers;
+}
+
+}  // namespace ridgeline

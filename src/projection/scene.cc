@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "projection/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/error.h"
+#include "projection/beside.h"
+#include "projection/edge_set.h"
+#include "projection/horizon.h"
+#include "projection/mesh_edges.h"
+#include "projection/occluder_bvh.h"
+#include "projection/ray_scene.h"
+#include "projection/terrain_mesh.h"
+
+namespace ridgeline {
+namespace {
+
+constexpr double kMilli = 1e-3;
+
+void Require(bool ok, const std::string& field, double value, const std::string& expected) {
+  if (ok) return;
+  throw InputError("", "projection." + field, std::to_string(value), expected);
+}
+
+std::vector<OccluderTriangle> Occluders(const CityModel& model,
+                                        const TerrainMesh& terrain,
+                                        const ProjectionOptions& options) {
+  std::vector<OccluderTriangle> occluders;
+  occluders.reserve(model.triangles.size() + terrain.triangles.size());
+  const auto vertex = [&](std::uint32_t i) -> Eigen::Vector3f {
+    return model.vertices[i].cast<float>();
+  };
+  for (const Triangle& triangle : model.triangles) {
+    const auto& v = triangle.vertices;
+    occluders.push_back({vertex(v[0]), vertex(v[1]), vertex(v[2]),
+                         static_cast<float>(options.surface_tolerance_m)});
+  }
+  for (const auto& v : terrain.triangles) {
+    occluders.push_back({terrain.vertices[v[0]], terrain.vertices[v[1]], terrain.vertices[v[2]],
+                         static_cast<float>(options.terrain_tolerance_m)});
+  }
+  return occluders;
+}
+
+float AngleBetween(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+float DistanceToSegment(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+  const Eigen::Vector3f along = b - a;
+  const float t = std::clamp(-a.dot(along) / along.squaredNorm(), 0.0f, 1.0f);
+  return (a + t * along).norm();
+}
+
+}  // namespace
+
+void ProjectionOptions::Validate() const {
+  Require(max_distance_m > 0.0, "max_distance_m", max_distance_m, "> 0");
+  Require(min_piece_mrad >= 0.0, "min_piece_mrad", min_piece_mrad, ">= 0");
+  Require(skyline_step_mrad >= 0.01 && skyline_step_mrad <= 1000.0, "skyline_step_mrad",
+          skyline_step_mrad, "[0.01, 1000]");
+  Require(surface_tolerance_m >= 0.0, "surface_tolerance_m", surface_tolerance_m, ">= 0");
+  Require(terrain_tolerance_m >= 0.0, "terrain_tolerance_m", terrain_tolerance_m, ">= 0");
+  Require(terrain_error_m >= 0.0, "terrain_error_m", terrain_error_m, ">= 0");
+}
+
+struct Scene::Impl {
+  Impl(const CityModel& city, const TerrainMesh& terrain, const MeshEdges& mesh,
+       const ProjectionOptions& projection)
+      : model(city),
+        options(projection),
+        occluders(Occluders(city, terrain, projection)),
+        rays(city, terrain),
+        edges(city, mesh),
+        horizon(city, mesh, terrain, projection.skyline_step_mrad * kMilli),
+        beside(city, rays) {}
+
+  const FeatureEdge& Feature(std::uint32_t index) const {
+    const std::size_t features = model.feature_edges.size();
+    return index < features ? model.feature_edges[index] : edges.weak_folds()[index - features];
+  }
+
+  const CityModel& model;
+  const ProjectionOptions options;
+  const OccluderBvh occluders;
+  const RayScene rays;
+  const EdgeSet edges;
+  const Horizon horizon;
+  const BesideFinder beside;
+};
+
+Scene::Scene(const CityModel& model, const HeightGrid* dtm, const ProjectionOptions& options) {
+  options.Validate();
+  const TerrainMesh terrain =
+      dtm == nullptr ? TerrainMesh{} : MeshTerrain(*dtm, options.terrain_error_m);
+  impl_ = std::make_unique<Impl>(model, terrain, FindMeshEdges(model), options);
+}
+
+Scene::~Scene() = default;
+Scene::Scene(Scene&&) noexcept = default;
+
+VisibleSet Scene::VisibleFrom(const Eigen::Vector3d& position, const Sector& sector) const {
+  const Impl& impl = *impl_;
+  const SectorTest sector_test(sector.center, sector.half_width);
+  const Eigen::Vector3f eye = position.cast<float>();
+  const auto min_angle = static_cast<float>(impl.options.min_piece_mrad * kMilli);
+
+  thread_local std::vector<std::uint32_t> candidates;
+  thread_local std::vector<Interval> parts;
+  thread_local OccluderBvh::Workspace workspace;
+  impl.edges.Candidates(eye, sector_test, static_cast<float>(impl.options.max_distance_m),
+                        min_angle, candidates);
+  VisibleSet visible;
+  visible.position = position;
+  workspace.last_leaf = 0;
+  for (const std::uint32_t candidate : candidates) {
+    const SceneEdge& edge = impl.edges.edges()[candidate];
+    const Eigen::Vector3f a = edge.a - eye;
+    const Eigen::Vector3f b = edge.b - eye;
+    // No part shorter than this can reach the least angle.
+    const float min_part = min_angle * DistanceToSegment(a, b) / edge.length;
+    impl.occluders.VisibleParts(eye, a, b, min_part, workspace, parts);
+    for (const Interval& part : parts) {
+      const Eigen::Vector3f start = a + part.first * (b - a);
+      const Eigen::Vector3f end = a + part.last * (b - a);
+      if (AngleBetween(start, end) < min_angle) continue;
+      const auto [left, right] =
+          impl.beside.Find(eye, edge, impl.Feature(edge.index), start, end);
+      visible.pieces.push_back({eye + start, eye + end, edge.index, left, right});
+    }
+  }
+  std::stable_sort(visible.pieces.begin(), visible.pieces.end(),
+                   [](const VisiblePiece& p, const VisiblePiece& q) { return p.edge < q.edge; });
+
+  const Horizon::Columns columns = impl.horizon.ColumnsOf(sector.center, sector.half_width);
+  visible.azimuth_step = impl.horizon.step();
+  visible.first_azimuth = columns.first * impl.horizon.step();
+  impl.horizon.Elevations(eye, columns, sector_test, visible.skyline_elevation);
+  return visible;
+}
+
+ViewBuffers Scene::Render(const PinholeCamera& camera,
+                          const Pose& cam_from_local,
+                          bool with_normals) const {
+  return impl_->rays.Render(camera, cam_from_local, with_normals);
+}
+
+std::optional<double> Scene::Raycast(const Eigen::Vector3d& from,
+                                     const Eigen::Vector3d& direction) const {
+  const std::optional<RayHit> hit =
+      impl_->rays.Cast(from.cast<float>(), direction.normalized().cast<float>());
+  if (!hit) return std::nullopt;
+  return hit->distance;
+}
+
+const CityModel& Scene::model() const { return impl_->model; }
+const ProjectionOptions& Scene::options() const { return impl_->options; }
+const FeatureEdge& Scene::edge(std::uint32_t index) const { return impl_->Feature(index); }
+std::size_t Scene::edge_count() const { return impl_->edges.edges().size(); }
+std::size_t Scene::memory_bytes() const {
+  return impl_->occluders.memory_bytes() + impl_->rays.memory_bytes();
+}
+
+}  // namespace ridgeline
