@@ -112,8 +112,7 @@ VisibleSet Scene::VisibleFrom(const Eigen::Vector3d& position, const Sector& sec
   thread_local OccluderBvh::Workspace workspace;
   impl.edges.Candidates(eye, sector_test, static_cast<float>(impl.options.max_distance_m),
                         min_angle, candidates);
-  VisibleSet visible;
-  visible.position = position;
+  VisibleSet visible = SkylineFrom(position, sector);
   workspace.last_leaf = 0;
   for (const std::uint32_t candidate : candidates) {
     const SceneEdge& edge = impl.edges.edges()[candidate];
@@ -133,11 +132,20 @@ VisibleSet Scene::VisibleFrom(const Eigen::Vector3d& position, const Sector& sec
   }
   std::stable_sort(visible.pieces.begin(), visible.pieces.end(),
                    [](const VisiblePiece& p, const VisiblePiece& q) { return p.edge < q.edge; });
+  return visible;
+}
 
-  const Horizon::Columns columns = impl.horizon.ColumnsOf(sector.center, sector.half_width);
-  visible.azimuth_step = impl.horizon.step();
-  visible.first_azimuth = columns.first * impl.horizon.step();
-  impl.horizon.Elevations(eye, columns, sector_test, visible.skyline_elevation);
+VisibleSet Scene::SkylineFrom(const Eigen::Vector3d& position, const Sector& sector) const {
+  const Horizon& horizon = impl_->horizon;
+  const Horizon::Columns columns = horizon.ColumnsOf(sector.center, sector.half_width);
+  VisibleSet visible;
+  visible.position = position;
+  visible.azimuth_step = horizon.step();
+  visible.first_azimuth = columns.first * horizon.step();
+  horizon.Elevations(position.cast<float>(),
+                     columns,
+                     SectorTest(sector.center, sector.half_width),
+                     visible.skyline_elevation);
   return visible;
 }
 

@@ -90,6 +90,8 @@ class Scene {
   // the terrain there are none. A ray that hits nothing sees the ground below the horizontal
   // (VisiblePiece::left, right), else the sky.
   VisibleSet VisibleFrom(const Eigen::Vector3d& position, const Sector& sector) const;
+  // The skyline alone (no pieces), at a fraction of the cost.
+  VisibleSet SkylineFrom(const Eigen::Vector3d& position, const Sector& sector) const;
 
   // One ray per pixel centre. Pixels that hit neither model nor terrain are sky.
   ViewBuffers Render(const PinholeCamera& camera,
