@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/commands.h"
 
+#include "cli/synth.h"
 #include "cli/version.h"
 
 namespace ridgeline {
@@ -10,6 +11,7 @@ using AddFunction = void (*)(CLI::App&, Context&);
 
 // One line per command, in the order of --help.
 constexpr AddFunction kCommands[] = {
+    AddSynthCommand,
     AddVersionCommand,
 };
 

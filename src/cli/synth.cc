@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/synth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "cli/command.h"
+#include "cli/progress.h"
+#include "synth/town_dataset.h"
+
+namespace ridgeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Buildings of a block, parts counted with their building; a mean over many blocks.
+constexpr double kBuildingsPerBlock = 11.0;
+
+struct SynthArguments {
+  std::string out;
+  std::string size;
+  std::optional<int> buildings;
+  bool overwrite = false;
+  std::vector<std::string> set;
+  TownDatasetOptions options;
+};
+
+void ParseSize(const std::string& size, TownDatasetOptions& options) {
+  char rest = '\0';
+  if (std::sscanf(size.c_str(), "%dx%d%c", &options.width, &options.height, &rest) != 2) {
+    throw InputError("--size", "", "\"" + size + "\"", "WIDTHxHEIGHT in pixels, e.g. 1280x960");
+  }
+}
+
+void CheckTarget(const fs::path& out, bool overwrite) {
+  std::error_code error;
+  if (!fs::exists(out, error) || overwrite) return;
+  throw InputError(
+      "--out", "", out.string() + ", which exists", "a new folder, or --overwrite to replace it");
+}
+
+// Moves the finished folder to its place.
+void Commit(const fs::path& temporary, const fs::path& out) {
+  if (fs::exists(out)) {
+    const fs::path old = TemporaryBeside(out);
+    fs::rename(out, old);
+    CommitFile(temporary, out);
+    fs::remove_all(old);
+    return;
+  }
+  CommitFile(temporary, out);
+}
+
+int RunSynth(SynthArguments& arguments, const Context& context) {
+  TownDatasetOptions& options = arguments.options;
+  if (!arguments.size.empty()) ParseSize(arguments.size, options);
+  if (arguments.buildings) {
+    const int side = static_cast<int>(std::ceil(std::sqrt(*arguments.buildings / kBuildingsPerBlock)));
+    options.town.blocks_east = options.town.blocks_north = std::max(1, side);
+  }
+  for (const std::string& assignment : arguments.set) {
+    SetOption(assignment, [&](OptionVisitor& v) { options.Visit(v); });
+  }
+  options.Validate();
+  fs::path out = fs::absolute(arguments.out).lexically_normal();
+  if (!out.has_filename()) out = out.parent_path();
+  CheckTarget(out, arguments.overwrite);
+
+  const fs::path temporary = TemporaryBeside(out);
+  fs::create_directory(temporary);
+  std::unique_ptr<Progress> progress;
+  const TownDatasetSummary summary = WriteTownDataset(
+      options, temporary, context.threads, [&](std::size_t done, std::size_t total) {
+        if (!progress) progress = std::make_unique<Progress>(context, "Building", total, "files");
+        progress->Set(done);
+      });
+  progress.reset();
+  Commit(temporary, out);
+
+  const fs::path dataset = fs::path(arguments.out) / "dataset.json";
+  if (context.json) {
+    context.Print(nlohmann::ordered_json{{"folder", arguments.out},
+                                         {"buildings", summary.buildings},
+                                         {"model_files", summary.model_files},
+                                         {"pictures", summary.pictures}}
+                      .dump(2));
+    return kExitOk;
+  }
+  context.Print("Town of " + std::to_string(summary.buildings) + " buildings and parts, " +
+                std::to_string(summary.pictures) + " pictures, in " + arguments.out);
+  if (summary.pictures > 0) context.Print("Next: ridgeline bench " + dataset.string() + " --out DIR");
+  return kExitOk;
+}
+
+}  // namespace
+
+void AddSynthCommand(CLI::App& app, Context& context) {
+  auto arguments = std::make_shared<SynthArguments>();
+  CLI::App* command = AddCommand(app,
+                                 context,
+                                 {"synth",
+                                  "Invents a town: CityGML, DTM and pictures with exact poses.",
+                                  "ridgeline synth --out town --seed 7 --queries 20\n"
+                                  "ridgeline synth --out big --buildings 100000 --queries 0"},
+                                 [arguments](Context& c) { return RunSynth(*arguments, c); });
+  TownDatasetOptions& options = arguments->options;
+  command->add_option("--out", arguments->out, "Folder to make")->required()->type_name("DIR");
+  command->add_option("--seed", options.town.seed, "Another seed, another town")
+      ->capture_default_str();
+  command->add_option("--queries", options.street, "Street pictures")->capture_default_str();
+  command->add_option("--tilted", options.tilted, "Pictures looking up")->capture_default_str();
+  command->add_option("--portrait", options.portrait, "Upright pictures")->capture_default_str();
+  command->add_option("--drone", options.drone, "Pictures from a drone")->capture_default_str();
+  command->add_option("--size", arguments->size, "Size of the pictures [1280x960]")
+      ->type_name("WxH");
+  command->add_option("--buildings", arguments->buildings, "About so many buildings, in tiles if many");
+  command->add_option("--set", arguments->set, "Any other option, e.g. --set survey_sigma_m=0.2")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command->add_flag("--overwrite", arguments->overwrite, "Replace the folder if it exists");
+}
+
+}  // namespace ridgeline

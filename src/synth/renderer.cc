@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "synth/renderer.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <vector>
+
+#include "base/parallel.h"
+#include "base/random.h"
+#include "synth/detail_mesh.h"
+#include "synth/paint.h"
+
+namespace ridgeline {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector2f;
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+constexpr float kOcclusionReachM = 7.0f;
+constexpr float kHazeM = 2500.0f;
+const Vector3f kSunLight(2.1f, 1.95f, 1.7f);
+
+// Orthonormal directions around a normal (Duff et al. 2017).
+void Tangents(const Vector3f& n, Vector3f& t, Vector3f& b) {
+  const float sign = std::copysign(1.0f, n.z());
+  const float a = -1.0f / (sign + n.z());
+  const float c = n.x() * n.y() * a;
+  t = Vector3f(1.0f + sign * n.x() * n.x() * a, sign * c, -sign * n.x());
+  b = Vector3f(c, sign + n.y() * n.y() * a, -n.y());
+}
+
+// Two uniform numbers of a sample of a pixel.
+Vector2f PixelSample(std::uint64_t pixel, std::uint64_t sample, std::uint64_t purpose) {
+  const std::uint64_t bits = MixBits(MixBits(pixel * 16 + sample) + purpose * 0x9E3779B97F4A7C15ull);
+  return {static_cast<float>(bits >> 40) * 0x1p-24f,
+          static_cast<float>((bits >> 8) & 0xFFFFFF) * 0x1p-24f};
+}
+
+}  // namespace
+
+struct TownRenderer::Impl {
+  Impl(const Town& t, double overhang_m) : town(t) {
+    AddBuildings(town, overhang_m, mesh);
+    AddGround(town, mesh);
+    AddStreetLife(town, mesh);
+    device = rtcNewDevice(nullptr);
+    scene = rtcNewScene(device);
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    void* vertices = rtcSetNewGeometryBuffer(geometry,
+                                             RTC_BUFFER_TYPE_VERTEX,
+                                             0,
+                                             RTC_FORMAT_FLOAT3,
+                                             sizeof(Vector3f),
+                                             mesh.vertices.size());
+    std::memcpy(vertices, mesh.vertices.data(), mesh.vertices.size() * sizeof(Vector3f));
+    auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(geometry,
+                                                                        RTC_BUFFER_TYPE_INDEX,
+                                                                        0,
+                                                                        RTC_FORMAT_UINT3,
+                                                                        3 * sizeof(std::uint32_t),
+                                                                        mesh.triangles.size()));
+    for (const DetailTriangle& triangle : mesh.triangles) {
+      indices = std::copy(triangle.vertices.begin(), triangle.vertices.end(), indices);
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene);
+  }
+  ~Impl() {
+    rtcReleaseScene(scene);
+    rtcReleaseDevice(device);
+  }
+
+  RTCRayHit Trace(const Vector3f& from, const Vector3f& direction) const {
+    RTCRayHit hit{};
+    SetRay(hit.ray, from, direction, std::numeric_limits<float>::infinity());
+    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcIntersect1(scene, &context, &hit);
+    return hit;
+  }
+  bool Occluded(const Vector3f& from, const Vector3f& direction, float reach_m) const {
+    RTCRay ray{};
+    SetRay(ray, from, direction, reach_m);
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(scene, &context, &ray);
+    return ray.tfar < 0.0f;
+  }
+  static void SetRay(RTCRay& ray, const Vector3f& from, const Vector3f& direction, float reach_m) {
+    ray.org_x = from.x();
+    ray.org_y = from.y();
+    ray.org_z = from.z();
+    ray.dir_x = direction.x();
+    ray.dir_y = direction.y();
+    ray.dir_z = direction.z();
+    ray.tnear = 0.0f;
+    ray.tfar = reach_m;
+    ray.mask = 0xFFFFFFFFu;
+  }
+
+  Paint PaintAt(const DetailTriangle& triangle, const RTCHit& hit, const Vector3f& point) const {
+    switch (triangle.material) {
+      case Material::kFacade: {
+        const Vector2f uv = (1.0f - hit.u - hit.v) * mesh.uv[triangle.vertices[0]] +
+                            hit.u * mesh.uv[triangle.vertices[1]] +
+                            hit.v * mesh.uv[triangle.vertices[2]];
+        return PaintFacade(mesh.walls[triangle.wall], uv);
+      }
+      case Material::kRoof:
+        return PaintRoof(triangle.color, point);
+      case Material::kGround:
+        return PaintGround(town, point);
+      case Material::kGlossy:
+        return {triangle.color, 0.18f};
+      default:
+        return {triangle.color, 0.0f};
+    }
+  }
+
+  // Light towards the camera along one ray.
+  Vector3f Radiance(const Vector3f& from, const Vector3f& direction, const Weather& weather,
+                    const Vector2f& random) const {
+    const RTCRayHit hit = Trace(from, direction);
+    const Vector3f sky = SkyColor(weather, direction);
+    if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return sky;
+    const DetailTriangle& triangle = mesh.triangles[hit.hit.primID];
+    Vector3f normal = Vector3f(hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z).normalized();
+    if (normal.dot(direction) > 0.0f) normal = -normal;
+    const float distance = hit.ray.tfar;
+    const Vector3f point = from + distance * direction;
+    const Vector3f start = point + (1e-3f + 2e-5f * distance) * normal;
+    const Paint paint = PaintAt(triangle, hit.hit, point);
+
+    Vector3f light = SkyLight(weather) * (0.55f + 0.45f * normal.z()) * Openness(start, normal, random);
+    const float facing = triangle.material == Material::kLeaves
+                             ? 0.5f + 0.5f * std::abs(normal.dot(weather.to_sun))
+                             : normal.dot(weather.to_sun);
+    if (weather.sun > 0.0f && facing > 0.0f &&
+        !Occluded(start, weather.to_sun, std::numeric_limits<float>::infinity())) {
+      light += weather.sun * facing * kSunLight;
+    }
+    Vector3f color = paint.albedo.cwiseProduct(light);
+    if (paint.mirror > 0.0f) {
+      const Vector3f mirrored = direction - 2.0f * direction.dot(normal) * normal;
+      color += paint.mirror * SkyColor(weather, mirrored);
+    }
+    const Vector3f haze(0.72f, 0.78f, 0.85f);
+    return haze + (color - haze) * std::exp(-distance / kHazeM);
+  }
+
+  // Share of sky light that is not blocked near by, from one cosine-distributed ray.
+  float Openness(const Vector3f& start, const Vector3f& normal, const Vector2f& random) const {
+    Vector3f tangent;
+    Vector3f bitangent;
+    Tangents(normal, tangent, bitangent);
+    const float r = std::sqrt(random.x());
+    const float turn = 2.0f * std::numbers::pi_v<float> * random.y();
+    const Vector3f direction = r * std::cos(turn) * tangent + r * std::sin(turn) * bitangent +
+                               std::sqrt(1.0f - random.x()) * normal;
+    return Occluded(start, direction, kOcclusionReachM) ? 0.35f : 1.0f;
+  }
+
+  const Town& town;
+  DetailMesh mesh;
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+};
+
+TownRenderer::TownRenderer(const Town& town, double overhang_m)
+    : impl_(std::make_unique<Impl>(town, overhang_m)) {}
+TownRenderer::~TownRenderer() = default;
+
+cv::Mat TownRenderer::Render(const CameraIntrinsics& camera,
+                             const Pose& cam_from_local,
+                             const Weather& weather,
+                             int threads) const {
+  const Eigen::Matrix3d world_from_cam = cam_from_local.cam_from_world.conjugate().toRotationMatrix();
+  const Vector3f center = cam_from_local.center_in_world.cast<float>();
+  const bool distorted = camera.HasDistortion();
+  const PinholeCamera pinhole = camera.Pinhole();
+  cv::Mat image(camera.height, camera.width, CV_32FC3);
+  ParallelFor(static_cast<std::size_t>(camera.height), threads, [&](std::size_t y) {
+    auto* row = image.ptr<cv::Vec3f>(static_cast<int>(y));
+    for (int x = 0; x < camera.width; ++x) {
+      const std::uint64_t pixel = y * static_cast<std::size_t>(camera.width) + x;
+      Vector3f sum = Vector3f::Zero();
+      for (int sample = 0; sample < 4; ++sample) {
+        const Vector2f jitter = PixelSample(pixel, sample, 1);
+        const Vector2d px(x + 0.5 * (sample % 2 + jitter.x()), y + 0.5 * (sample / 2 + jitter.y()));
+        const Vector3d ray = distorted ? camera.Undistort(px).homogeneous().eval()
+                                       : pinhole.RayFromImage(px);
+        const Vector3f direction = (world_from_cam * ray).normalized().cast<float>();
+        sum += impl_->Radiance(center, direction, weather, PixelSample(pixel, sample, 2));
+      }
+      row[x] = cv::Vec3f(0.25f * sum.x(), 0.25f * sum.y(), 0.25f * sum.z());
+    }
+  });
+  return image;
+}
+
+ViewStatistics TownRenderer::Probe(const CameraIntrinsics& camera,
+                                   const Pose& cam_from_local) const {
+  constexpr int kRays = 32;
+  const PinholeCamera pinhole = camera.Pinhole();
+  ViewStatistics statistics;
+  statistics.nearest_m = 1e9;
+  std::vector<double> building_m;
+  for (int i = 0; i < kRays * kRays; ++i) {
+    const Vector2d px((i % kRays + 0.5) * camera.width / kRays,
+                      (i / kRays + 0.5) * camera.height / kRays);
+    const Vector3d ray = cam_from_local.cam_from_world.conjugate() * pinhole.RayFromImage(px);
+    const RTCRayHit hit = impl_->Trace(cam_from_local.center_in_world.cast<float>(),
+                                       ray.normalized().cast<float>());
+    if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+      statistics.sky_share += 1.0 / (kRays * kRays);
+      continue;
+    }
+    const Material material = impl_->mesh.triangles[hit.hit.primID].material;
+    const double distance = hit.ray.tfar;
+    if (material != Material::kGround) statistics.nearest_m = std::min(statistics.nearest_m, distance);
+    if (material == Material::kFacade || material == Material::kRoof) building_m.push_back(distance);
+  }
+  statistics.building_share = static_cast<double>(building_m.size()) / (kRays * kRays);
+  if (!building_m.empty()) {
+    const auto middle = building_m.begin() + static_cast<long>(building_m.size() / 2);
+    std::nth_element(building_m.begin(), middle, building_m.end());
+    statistics.median_building_m = *middle;
+  }
+  return statistics;
+}
+
+}  // namespace ridgeline
