@@ -7,6 +7,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "optim/kernel_sum.h"
+
 namespace ridgeline {
 namespace {
 
@@ -166,53 +168,58 @@ Columns ParzenEstimator::Sample(Random& random, std::size_t count) const {
 }
 
 std::vector<double> ParzenEstimator::LogDensities(const Columns& points) const {
-  const std::size_t kernels = coefficients_.size();
   const std::size_t count = points[0].size();
-  // Beyond this exponent even the narrowest kernel adds nothing to the prior's density.
-  const double cutoff = 80.0 + 8.0 * static_cast<double>(dimensions_.size());
-  std::vector<double> square(kernels);
-  std::vector<double> factor(has_images_ ? kernels : 0);
+  std::vector<double> squares(coefficients_.size());
+  std::vector<double> factors;
   std::vector<double> result(count);
   for (std::size_t i = 0; i < count; ++i) {
-    std::fill(square.begin(), square.end(), 0.0);
-    std::fill(factor.begin(), factor.end(), 1.0);
+    std::fill(squares.begin(), squares.end(), 0.0);
+    if (has_images_) factors = coefficients_;
     for (std::size_t d = 0; d < dimensions_.size(); ++d) {
-      const Dimension& dimension = dimensions_[d];
-      const double x = points[d][i];
-      const double* mu = dimension.mu.data();
-      const double* scale = dimension.inverse_sigma.data();
-      if (!dimension.periodic) {
-        for (std::size_t k = 0; k < kernels; ++k) {
-          const double z = (x - mu[k]) * scale[k];
-          square[k] += z * z;
-        }
-        continue;
-      }
-      for (std::size_t k = 0; k < kernels; ++k) {
-        const double way = std::abs(x - mu[k]);
-        const double nearest = std::min(way, 1.0 - way) * scale[k];
-        const int images = dimension.images[k];
-        if (images == 0) {
-          square[k] += nearest * nearest;
-          continue;
-        }
-        double sum = 0.0;
-        for (int image = -images; image <= images; ++image) {
-          const double z = nearest + image * scale[k];
-          sum += std::exp(-0.5 * z * z);
-        }
-        factor[k] *= sum;
+      if (dimensions_[d].periodic) {
+        AddPeriodic(dimensions_[d], points[d][i], squares, factors);
+      } else {
+        AddLinear(dimensions_[d], points[d][i], squares);
       }
     }
-    double density = 0.0;
-    for (std::size_t k = 0; k < kernels; ++k) {
-      if (square[k] > cutoff) continue;
-      const double kernel = coefficients_[k] * std::exp(-0.5 * square[k]);
-      density += has_images_ ? kernel * factor[k] : kernel;
-    }
-    result[i] = std::log(density);
+    const std::vector<double>& weights = has_images_ ? factors : coefficients_;
+    result[i] = std::log(KernelSum(squares.data(), weights.data(), squares.size()));
   }
   return result;
+}
+
+void ParzenEstimator::AddLinear(const Dimension& dimension,
+                                double x,
+                                std::vector<double>& squares) {
+  const double* mu = dimension.mu.data();
+  const double* scale = dimension.inverse_sigma.data();
+  double* square = squares.data();
+  for (std::size_t k = 0; k < squares.size(); ++k) {
+    const double z = (x - mu[k]) * scale[k];
+    square[k] += z * z;
+  }
+}
+
+void ParzenEstimator::AddPeriodic(const Dimension& dimension,
+                                  double x,
+                                  std::vector<double>& squares,
+                                  std::vector<double>& factors) {
+  for (std::size_t k = 0; k < squares.size(); ++k) {
+    const double way = std::abs(x - dimension.mu[k]);
+    const double scale = dimension.inverse_sigma[k];
+    const double nearest = std::min(way, 1.0 - way) * scale;
+    const int images = dimension.images[k];
+    if (images == 0) {
+      squares[k] += nearest * nearest;
+      continue;
+    }
+    double sum = 0.0;
+    for (int image = -images; image <= images; ++image) {
+      const double z = nearest + image * scale;
+      sum += std::exp(-0.5 * z * z);
+    }
+    factors[k] *= sum;
+  }
 }
 
 }  // namespace ridgeline

@@ -47,7 +47,7 @@ class ParzenEstimator {
   Columns Sample(Random& random, std::size_t count) const;
 
   // Natural logarithm of the density at each point.
-  // Cost: one exponential per point and kernel within about 9 deviations.
+  // Cost: one exponential per point and kernel, in vector code.
   std::vector<double> LogDensities(const Columns& points) const;
 
  private:
@@ -65,6 +65,11 @@ class ParzenEstimator {
                                  std::size_t dimensions,
                                  const ParzenOptions& options);
   void Normalize(const std::vector<double>& weights, double prior_weight);
+  static void AddLinear(const Dimension& dimension, double x, std::vector<double>& squares);
+  static void AddPeriodic(const Dimension& dimension,
+                          double x,
+                          std::vector<double>& squares,
+                          std::vector<double>& factors);
   double SampleCoordinate(const Dimension& dimension, std::size_t kernel, Random& random) const;
 
   std::vector<Dimension> dimensions_;

@@ -45,47 +45,60 @@ TpeStrategy::TpeStrategy(const StrategyContext& context, const TpeOptions& optio
       by_value_(context.dimension) {}
 
 std::optional<UnitPoint> TpeStrategy::Propose(std::int64_t id) {
-  if (id != last_id_) rejections_ = 0;
-  last_id_ = id;
-  const UnitPoint point = Draw();
-  Entry entry;
-  entry.id = id;
-  entry.energy = std::numeric_limits<double>::infinity();
-  Insert(entry, point);
-  return point;
+  static const std::uint64_t kStage = HashText("optim.tpe");
+  if (id != last_id_) {
+    Commit();
+    last_id_ = id;
+    rejections_ = 0;
+  }
+  Random random(context_.seed, kStage, draws_++);
+  if (finished_ < options_.startup_trials || rejections_ >= kPatience) {
+    last_point_ = DrawUniform(random);
+  } else {
+    if (pairs_.empty()) BuildModel();
+    last_point_ = DrawFromModel(random);
+  }
+  return last_point_;
 }
 
 void TpeStrategy::Reject(std::int64_t) {
   ++rejections_;
-  Remove(entries_.size() - 1);
+  last_point_.clear();
+}
+
+void TpeStrategy::Commit() {
+  if (last_point_.empty()) return;
+  Entry entry;
+  entry.id = last_id_;
+  entry.energy = std::numeric_limits<double>::infinity();
+  Insert(entry, last_point_);
+  last_point_.clear();
 }
 
 void TpeStrategy::Observe(std::int64_t id,
                           const UnitPoint& point,
                           double energy,
                           TrialState state) {
+  Commit();
   const auto it = std::lower_bound(entries_.begin(),
                                    entries_.end(),
                                    id,
                                    [](const Entry& entry, std::int64_t i) { return entry.id < i; });
   const bool known = it != entries_.end() && it->id == id;
-  if (Finished(state)) ++finished_;
-  if (!known) {
-    // A point that this strategy did not propose has the highest id so far, or is the first guess.
-    Entry entry;
-    entry.id = id;
-    entry.energy = energy;
-    entry.state = state;
-    if (Finished(state)) Insert(entry, point);
-  } else if (Finished(state)) {
+  if (known && !Finished(state)) Remove(it - entries_.begin());
+  if (!Finished(state)) return;
+  ++finished_;
+  pairs_.clear();
+  if (known) {
     it->energy = energy;
     it->state = state;
   } else {
-    Remove(it - entries_.begin());
+    Insert({id, energy, state}, point);
   }
 }
 
 void TpeStrategy::Insert(const Entry& entry, const UnitPoint& point) {
+  pairs_.clear();
   const auto it = std::upper_bound(entries_.begin(),
                                    entries_.end(),
                                    entry.id,
@@ -108,6 +121,7 @@ void TpeStrategy::Insert(const Entry& entry, const UnitPoint& point) {
 }
 
 void TpeStrategy::Remove(std::size_t index) {
+  pairs_.clear();
   for (std::size_t d = 0; d < context_.dimension; ++d) {
     std::vector<std::size_t>& order = by_value_[d];
     order.erase(std::find(order.begin(), order.end(), index));
@@ -115,23 +129,6 @@ void TpeStrategy::Remove(std::size_t index) {
     columns_[d].erase(columns_[d].begin() + index);
   }
   entries_.erase(entries_.begin() + index);
-}
-
-UnitPoint TpeStrategy::Draw() {
-  static const std::uint64_t kStage = HashText("optim.tpe");
-  Random random(context_.seed, kStage, draws_++);
-  if (finished_ < options_.startup_trials || rejections_ >= kPatience) return DrawUniform(random);
-  Split();
-  if (model_ == TpeModel::kMultivariate) return DrawJointly(random);
-  UnitPoint point(context_.dimension);
-  for (std::size_t d = 0; d < point.size(); ++d) point[d] = DrawCoordinate(d, random);
-  return point;
-}
-
-UnitPoint TpeStrategy::DrawUniform(Random& random) const {
-  UnitPoint point(context_.dimension);
-  for (double& u : point) u = random.Uniform();
-  return point;
 }
 
 // Marks the good trials and gives both groups their weights by age.
@@ -163,44 +160,53 @@ void TpeStrategy::Split() {
   }
 }
 
-ParzenOptions TpeStrategy::Parzen(BandwidthRule rule) const {
-  return {rule, options_.prior_weight, options_.magic_clip, options_.consider_endpoints};
-}
-
-double TpeStrategy::DrawCoordinate(std::size_t d, Random& random) const {
-  Columns points[2] = {Columns(1), Columns(1)};
-  std::vector<double> weights[2];
-  for (const std::size_t i : by_value_[d]) {
-    const int group = entries_[i].good ? 0 : 1;
-    points[group][0].push_back(columns_[d][i]);
-    weights[group].push_back(entries_[i].weight);
+void TpeStrategy::BuildModel() {
+  Split();
+  if (model_ == TpeModel::kMultivariate) {
+    std::vector<std::size_t> all(context_.dimension);
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    pairs_.push_back(MakePair(by_value_[0], all));
+    return;
   }
-  const ParzenOptions options = Parzen(BandwidthRule::kNeighbours);
-  const std::vector<bool> periodic = {context_.periodic[d]};
-  const ParzenEstimator good(points[0], weights[0], periodic, options);
-  const ParzenEstimator other(points[1], weights[1], periodic, options);
-  const Columns candidates = good.Sample(random, options_.candidates);
-  return candidates[0][BestRatio(good.LogDensities(candidates), other.LogDensities(candidates))];
+  for (std::size_t d = 0; d < context_.dimension; ++d) pairs_.push_back(MakePair(by_value_[d], {d}));
 }
 
-UnitPoint TpeStrategy::DrawJointly(Random& random) const {
-  Columns points[2] = {Columns(context_.dimension), Columns(context_.dimension)};
+TpeStrategy::DensityPair TpeStrategy::MakePair(const std::vector<std::size_t>& order,
+                                               const std::vector<std::size_t>& dimensions) const {
+  Columns points[2] = {Columns(dimensions.size()), Columns(dimensions.size())};
   std::vector<double> weights[2];
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
+  for (const std::size_t i : order) {
     const int group = entries_[i].good ? 0 : 1;
-    for (std::size_t d = 0; d < context_.dimension; ++d) {
-      points[group][d].push_back(columns_[d][i]);
+    for (std::size_t k = 0; k < dimensions.size(); ++k) {
+      points[group][k].push_back(columns_[dimensions[k]][i]);
     }
     weights[group].push_back(entries_[i].weight);
   }
-  const ParzenOptions options = Parzen(BandwidthRule::kScott);
-  const ParzenEstimator good(points[0], weights[0], context_.periodic, options);
-  const ParzenEstimator other(points[1], weights[1], context_.periodic, options);
-  const Columns candidates = good.Sample(random, options_.candidates);
-  const std::size_t best =
-      BestRatio(good.LogDensities(candidates), other.LogDensities(candidates));
+  std::vector<bool> periodic;
+  for (const std::size_t d : dimensions) periodic.push_back(context_.periodic[d]);
+  const ParzenOptions parzen = {
+      model_ == TpeModel::kMultivariate ? BandwidthRule::kScott : BandwidthRule::kNeighbours,
+      options_.prior_weight,
+      options_.magic_clip,
+      options_.consider_endpoints};
+  return {ParzenEstimator(points[0], weights[0], periodic, parzen),
+          ParzenEstimator(points[1], weights[1], periodic, parzen)};
+}
+
+UnitPoint TpeStrategy::DrawUniform(Random& random) const {
+  UnitPoint point(context_.dimension);
+  for (double& u : point) u = random.Uniform();
+  return point;
+}
+
+UnitPoint TpeStrategy::DrawFromModel(Random& random) const {
   UnitPoint point;
-  for (const std::vector<double>& column : candidates) point.push_back(column[best]);
+  for (const DensityPair& pair : pairs_) {
+    const Columns candidates = pair.good.Sample(random, options_.candidates);
+    const std::size_t best =
+        BestRatio(pair.good.LogDensities(candidates), pair.other.LogDensities(candidates));
+    for (const std::vector<double>& column : candidates) point.push_back(column[best]);
+  }
   return point;
 }
 

@@ -46,12 +46,19 @@ class TpeStrategy final : public Strategy {
     double weight = 1.0;
   };
 
-  UnitPoint Draw();
-  UnitPoint DrawUniform(Random& random) const;
+  // Densities of the good trials and of the others, over one parameter or over all.
+  struct DensityPair {
+    ParzenEstimator good;
+    ParzenEstimator other;
+  };
+
+  void Commit();
+  void BuildModel();
   void Split();
-  ParzenOptions Parzen(BandwidthRule rule) const;
-  double DrawCoordinate(std::size_t d, Random& random) const;
-  UnitPoint DrawJointly(Random& random) const;
+  DensityPair MakePair(const std::vector<std::size_t>& order,
+                       const std::vector<std::size_t>& dimensions) const;
+  UnitPoint DrawUniform(Random& random) const;
+  UnitPoint DrawFromModel(Random& random) const;
   void Insert(const Entry& entry, const UnitPoint& point);
   void Remove(std::size_t index);
 
@@ -63,9 +70,12 @@ class TpeStrategy final : public Strategy {
   Columns columns_;
   std::vector<std::vector<std::size_t>> by_value_;
   int finished_ = 0;
-  // Of proposal last_id_, in a row.
-  int rejections_ = 0;
+  // Of the present entries; empty if they have changed. Redraws of a rejected point share it.
+  std::vector<DensityPair> pairs_;
+  // The last proposal becomes an entry when it is known to be admissible.
   std::int64_t last_id_ = -1;
+  UnitPoint last_point_;
+  int rejections_ = 0;
   std::uint64_t draws_ = 0;
 };
 

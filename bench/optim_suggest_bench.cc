@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cost of one suggestion (ask and tell) when `trials` results are known.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "optim/minimize.h"
+
+namespace ridgeline {
+namespace {
+
+double Energy(std::span<const double> x) {
+  double sum = 0.0;
+  for (const double v : x) sum += (v - 0.3) * (v - 0.3);
+  return sum;
+}
+
+SearchProblem Cube(int dimensions) {
+  SearchProblem problem;
+  for (int d = 0; d < dimensions; ++d) {
+    problem.box.parameters.push_back({"x" + std::to_string(d), 0.0, 1.0});
+  }
+  return problem;
+}
+
+// Suggestions with trials ... trials + 9 results known, so the number stays near its argument.
+void Suggest(benchmark::State& state, const char* name) {
+  const int trials = static_cast<int>(state.range(0));
+  SamplerOptions options;
+  options.name = name;
+  MinimizeOptions run;
+  run.budget = trials;
+  for (auto _ : state) {
+    state.PauseTiming();
+    const auto sampler = MakeSampler(options, Cube(6), 1);
+    Minimize(*sampler, Energy, run);
+    state.ResumeTiming();
+    for (int i = 0; i < 10; ++i) {
+      for (Trial& trial : sampler->Ask(1)) {
+        trial.SetEnergy(Energy(trial.values));
+        sampler->Tell(trial);
+      }
+    }
+  }
+  state.counters["per_suggestion"] = benchmark::Counter(
+      10.0 * static_cast<double>(state.iterations()),
+      benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+BENCHMARK_CAPTURE(Suggest, tpe, "tpe")->Arg(200)->Arg(1000);
+BENCHMARK_CAPTURE(Suggest, tpe_multivariate, "tpe_multivariate")->Arg(200)->Arg(1000);
+
+}  // namespace
+}  // namespace ridgeline
