@@ -20,7 +20,7 @@ struct Building {
 // One polygon of the model: its triangles share class, building and plane.
 struct Surface {
   SurfaceClass surface_class = SurfaceClass::kOther;
-  std::uint32_t building = 0;  // index into CityModel::buildings
+  std::uint32_t building = 0;                        // index into CityModel::buildings
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  // outward, unit
 };
 
@@ -34,12 +34,16 @@ inline constexpr std::uint32_t kNoSurface = 0xFFFFFFFFu;
 
 // Edge of the model that can be seen as a line: a fold between two planes, or the border of a
 // surface without neighbour. Edges between coplanar polygons, inside walls that adjoining buildings
-// share, and along the cuts of tiles are not feature edges.
+// share, and along the cuts of tiles are not feature edges. Where the coplanar walls or roofs of
+// two different buildings meet there is no fold, but often a change of colour: a seam. Edges at the
+// foot of a wall have a ground surface on one side (or none, where the model has no ground
+// surfaces).
 struct FeatureEdge {
   Eigen::Vector3d a = Eigen::Vector3d::Zero();  // local frame [m]
   Eigen::Vector3d b = Eigen::Vector3d::Zero();
   std::uint32_t surface0 = kNoSurface;
   std::uint32_t surface1 = kNoSurface;  // kNoSurface: a border
+  bool seam = false;                    // no fold: coplanar surfaces of two buildings meet
 };
 
 // Reference system of a model, DTM or dataset: EPSG codes; vertical 0 is not known.

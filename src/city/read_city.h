@@ -13,23 +13,37 @@ namespace ridgeline {
 struct CityOptions {
   // "EPSG:25832" or any spelling of an srsName; overrides what the files say. Empty: the files'.
   std::string model_crs;
+  // Projected system that the model is moved to. Empty: the files' own; for geographic coordinates
+  // the UTM zone of their middle.
+  std::string project_to;
+  // Level of detail wanted, 1 to 4. A building without it is read in its next one, with a warning.
+  int lod = 2;
   // Feature edges: smallest angle between the normals of the two faces [deg].
   double min_dihedral_deg = 10.0;
   // Vertices closer than this are one [m].
   double weld_m = 0.005;
+  // Faces and edges closer than this touch, e.g. the walls that adjoining buildings share [m].
+  double adjoin_m = 0.03;
+  // Threads; 0: all.
+  int threads = 0;
 
   void Visit(OptionVisitor& v) {
     v.Field("model_crs", model_crs);
+    v.Field("project_to", project_to);
+    v.Field("lod", lod);
     v.Field("min_dihedral_deg", min_dihedral_deg);
     v.Field("weld_m", weld_m);
+    v.Field("adjoin_m", adjoin_m);
+    v.Field("threads", threads);
   }
   // Throws InputError naming the field, e.g. "city.weld_m".
   void Validate() const;
 };
 
-// Reads model files (folders: every model file in them) into one model. Throws InputError for a
-// missing, truncated or unreadable file, for files in different systems, and for a model without
-// any LoD2 building.
+// Reads model files (folders: every model file in them) into one model: CityGML 1.0, 2.0, 3.0 (also
+// gzipped), CityJSON 1.0 to 2.0 and CityJSONSeq, OBJ and PLY. Throws InputError for a missing,
+// truncated or unreadable file, for files in different systems, and for a model without any
+// building that has a volume. What is dropped or repaired is named in CityModel::warnings.
 CityModel ReadCity(const std::vector<std::filesystem::path>& paths, const CityOptions& options);
 
 }  // namespace ridgeline

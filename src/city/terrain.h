@@ -23,8 +23,8 @@ struct HeightGrid {
   std::optional<double> HeightAt(const Eigen::Vector2d& xy) const;
 };
 
-// Building footprints: the ground surfaces of a model, or the outlines of its walls where a building
-// has none. Local frame.
+// Building footprints: the ground surfaces of a model, or the outlines of its walls where a
+// building has none. Local frame.
 class Footprints {
  public:
   explicit Footprints(const CityModel& model);
@@ -42,10 +42,10 @@ class Footprints {
   std::unique_ptr<Impl> impl_;
 };
 
-// Reads any GDAL raster (VRT for tiles) as a height grid in the frame of `model`. Only the part within
-// `margin_m` of the box [lower, upper] (local) is read. Throws InputError for an unreadable file, a
-// CRS other than the model's, or a raster that does not touch the box. A raster without a CRS is
-// taken to be in the model's, with a warning appended to `warnings`.
+// Reads any GDAL raster (VRT for tiles) as a height grid in the frame of `model`. Only the part
+// within `margin_m` of the box [lower, upper] (local) is read. Throws InputError for an unreadable
+// file, a CRS other than the model's, or a raster that does not touch the box. A raster without a
+// CRS is taken to be in the model's, with a warning appended to `warnings`.
 HeightGrid ReadDtm(const std::filesystem::path& path,
                    const CityModel& model,
                    const Eigen::Vector2d& lower,

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ridgeline {
+
+// Numbers of a coordinate list, parsed while the text comes in, so that a list of nonsense fails at
+// its first word and memory stays with the numbers. Separators: white space and commas.
+class CoordinateList {
+ public:
+  // Longest list accepted; a ring of a building has dozens of numbers.
+  static constexpr std::size_t kMaxNumbers = 30'000'000;
+
+  void Begin();
+  // Both throw std::invalid_argument holding the word that is not a finite number.
+  void Feed(std::string_view text);
+  void Finish();
+
+  const std::vector<double>& numbers() const { return numbers_; }
+
+ private:
+  void Word(std::string_view word);
+
+  std::vector<double> numbers_;
+  std::string tail_;  // a word cut by the end of a piece of text
+};
+
+}  // namespace ridgeline

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "city/city_model.h"
+
+namespace ridgeline {
+
+// Understands the spellings of reference systems that city models use: EPSG:25832, EPSG::25832,
+// urn:ogc:def:crs:EPSG::25832, urn:ogc:def:crs,crs:EPSG:6.12:31468,crs:EPSG:6.12:5783,
+// http://www.opengis.net/def/crs/EPSG/0/6697, ...gml/srs/epsg.xml#25832, plain 25832,
+// EPSG:25832+7837, and AdV's names (urn:adv:crs:ETRS89_UTM32*DE_DHHN2016_NH, DE_DHDN_3GK4, ...).
+// Compound codes come apart (7415 is 28992 + 5709). nullopt: not understood.
+std::optional<Crs> ParseCrs(std::string_view srs_name);
+
+// "EPSG:25832", "EPSG:25832+7837", or "no CRS".
+std::string CrsName(const Crs& crs);
+
+// Whether the horizontal system has degrees (latitude and longitude). Throws InputError if PROJ
+// does not know the code; `file` is named in the message.
+bool IsGeographic(const Crs& crs, const std::string& file);
+
+// Takes coordinates as a file has them to east, north, height. Files write east first whatever the
+// EPSG register says, but for geographic systems (latitude first); where the system's area of use
+// shows the opposite, the two are swapped.
+class ToProjected {
+ public:
+  // @param sample  A coordinate of the file, which decides the order of the axes and, for a
+  //     geographic system without `target`, the UTM zone.
+  // @param target  System wanted; horizontal_epsg 0: `source`, or a UTM zone if it is geographic.
+  // Throws InputError for codes that PROJ does not know and for a target that is not projected.
+  ToProjected(const Crs& source,
+              const Crs& target,
+              const Eigen::Vector3d& sample,
+              const std::string& file);
+
+  const Crs& crs() const { return crs_; }
+  bool swaps() const { return swap_; }
+  bool transforms() const { return transform_; }
+  // In place.
+  void Apply(std::vector<Eigen::Vector3d>& points) const;
+
+ private:
+  Crs source_;
+  Crs crs_;  // of the result
+  bool swap_ = false;
+  bool transform_ = false;
+  std::string file_;
+};
+
+// Geographic position (WGS 84) of a point of a projected system; nullopt where PROJ has no answer.
+// Shared by callers that show a place on a map.
+std::optional<Eigen::Vector2d> LatitudeLongitude(const Crs& crs, const Eigen::Vector2d& east_north);
+
+}  // namespace ridgeline

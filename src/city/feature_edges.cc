@@ -1,0 +1,462 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "city/feature_edges.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <unordered_map>
+
+#include "base/parallel.h"
+#include "city/face_grid.h"
+
+namespace ridgeline {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kGridCell = 8.0;             // [m]
+constexpr double kSameDirection = 0.087;      // 5 degrees: half-planes that lie on each other
+constexpr double kOpposite = -0.9;            // cosine between normals of faces back to back
+constexpr double kSamePlaneCosine = 0.99985;  // 1 degree: pieces that may be joined
+
+// An edge of one or more polygons, between two welded vertices.
+struct MeshEdge {
+  std::uint32_t a = 0;
+  std::uint32_t b = 0;
+  std::uint32_t first_use = 0;  // of EdgeTable::uses
+  std::uint32_t use_count = 0;
+};
+
+struct EdgeUse {
+  std::uint32_t face = 0;
+  bool forward =
+      false;  // the face has it from a to b: its interior is to the left about its normal
+};
+
+struct EdgeTable {
+  std::vector<MeshEdge> edges;
+  std::vector<EdgeUse> uses;
+  std::vector<std::uint32_t> edge_of_corner;  // parallel to FaceSet::corners
+};
+
+EdgeTable BuildEdgeTable(const FaceSet& set) {
+  EdgeTable table;
+  table.edge_of_corner.resize(set.corners.size());
+  std::unordered_map<std::uint64_t, std::uint32_t> index;
+  index.reserve(set.corners.size());
+  struct Entry {
+    std::uint32_t edge;
+    EdgeUse use;
+  };
+  std::vector<Entry> entries;
+  entries.reserve(set.corners.size());
+  for (std::uint32_t f = 0; f < set.faces.size(); ++f) {
+    const Face& face = set.faces[f];
+    for (std::uint32_t r = face.first_ring; r < face.first_ring + face.ring_count; ++r) {
+      const std::span<const std::uint32_t> ring = set.Ring(r);
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        const std::uint32_t from = ring[i];
+        const std::uint32_t to = ring[(i + 1) % ring.size()];
+        const std::uint32_t low = std::min(from, to);
+        const std::uint32_t high = std::max(from, to);
+        const std::uint64_t key = (std::uint64_t{low} << 32) | high;
+        const auto [it, is_new] =
+            index.try_emplace(key, static_cast<std::uint32_t>(table.edges.size()));
+        if (is_new) table.edges.push_back({low, high, 0, 0});
+        ++table.edges[it->second].use_count;
+        table.edge_of_corner[set.rings[r].first + i] = it->second;
+        entries.push_back({it->second, {f, from == low}});
+      }
+    }
+  }
+  std::uint32_t first = 0;
+  for (MeshEdge& edge : table.edges) {
+    edge.first_use = first;
+    first += edge.use_count;
+    edge.use_count = 0;
+  }
+  table.uses.resize(entries.size());
+  for (const Entry& entry : entries) {
+    MeshEdge& edge = table.edges[entry.edge];
+    table.uses[edge.first_use + edge.use_count++] = entry.use;
+  }
+  return table;
+}
+
+// A face as seen at a piece of an edge: it leaves the edge's line in direction `angle`.
+struct HalfPlane {
+  std::uint32_t face = 0;
+  double angle = 0.0;      // about the line, in the frame of the edge
+  double free_side = 0.0;  // +1: the free space is at larger angles, -1: at smaller ones
+};
+
+double AngleBetween(double a, double b) {
+  const double difference = std::abs(std::remainder(a - b, 2.0 * kPi));
+  return std::min(difference, 2.0 * kPi - difference);
+}
+
+struct Piece {
+  double from = 0.0;  // along the edge [m]
+  double to = 0.0;
+  std::uint32_t surface0 = kNoSurface;
+  std::uint32_t surface1 = kNoSurface;
+  bool seam = false;
+};
+
+class EdgeFinder {
+ public:
+  EdgeFinder(const FaceSet& set,
+             const std::vector<std::uint32_t>& roots,
+             const FeatureEdgeOptions& options)
+      : set_(set),
+        roots_(roots),
+        options_(options),
+        min_fold_(options.min_dihedral_deg * kPi / 180.0),
+        table_(BuildEdgeTable(set)),
+        grid_(set, kGridCell) {}
+
+  std::vector<FeatureEdge> Run() {
+    constexpr std::size_t kBlock = 512;
+    const std::size_t blocks = (table_.edges.size() + kBlock - 1) / kBlock;
+    std::vector<std::vector<FeatureEdge>> results(blocks);
+    ParallelFor(blocks, options_.threads, [&](std::size_t block) {
+      Workspace workspace;
+      const std::size_t end = std::min(table_.edges.size(), (block + 1) * kBlock);
+      for (std::size_t e = block * kBlock; e < end; ++e) {
+        Evaluate(static_cast<std::uint32_t>(e), workspace, results[block]);
+      }
+    });
+    std::vector<FeatureEdge> edges;
+    for (const std::vector<FeatureEdge>& result : results) {
+      edges.insert(edges.end(), result.begin(), result.end());
+    }
+    return edges;
+  }
+
+ private:
+  // A face other than the edge's own ones that the edge touches in [from, to].
+  struct Contact {
+    std::uint32_t face = 0;
+    double from = 0.0;
+    double to = 0.0;
+  };
+
+  struct Workspace {
+    std::vector<std::uint32_t> candidates;
+    std::vector<Contact> contacts;
+    std::vector<double> cuts;
+    std::vector<HalfPlane> half_planes;
+    std::vector<Piece> pieces;
+  };
+
+  // The line of an edge with a frame across it, in which the angles of faces are measured.
+  struct Line {
+    Eigen::Vector3d start, direction, u, v;
+    double length = 0.0;
+
+    double AngleOf(const Eigen::Vector3d& across) const {
+      return std::atan2(across.dot(v), across.dot(u));
+    }
+  };
+
+  void Evaluate(std::uint32_t index, Workspace& w, std::vector<FeatureEdge>& out) const {
+    const MeshEdge& edge = table_.edges[index];
+    const Line line = LineOf(edge);
+    if (line.length < options_.adjoin_m) return;
+    FindContacts(edge, line, w);
+    FindCuts(line, w);
+    w.pieces.clear();
+    for (std::size_t i = 0; i + 1 < w.cuts.size(); ++i) {
+      const double middle = 0.5 * (w.cuts[i] + w.cuts[i + 1]);
+      if (!CollectHalfPlanes(index, line, middle, w)) continue;
+      std::optional<Piece> piece = Judge(w.half_planes);
+      if (!piece) continue;
+      piece->from = w.cuts[i];
+      piece->to = w.cuts[i + 1];
+      Append(*piece, w.pieces);
+    }
+    for (const Piece& piece : w.pieces) {
+      FeatureEdge feature;
+      feature.a = piece.from <= 0.0 ? line.start : line.start + piece.from * line.direction;
+      feature.b =
+          piece.to >= line.length ? set_.vertices[edge.b] : line.start + piece.to * line.direction;
+      feature.surface0 = piece.surface0;
+      feature.surface1 = piece.surface1;
+      feature.seam = piece.seam;
+      out.push_back(feature);
+    }
+  }
+
+  Line LineOf(const MeshEdge& edge) const {
+    Line line;
+    line.start = set_.vertices[edge.a];
+    const Eigen::Vector3d along = set_.vertices[edge.b] - line.start;
+    line.length = along.norm();
+    line.direction =
+        line.length > 0.0 ? Eigen::Vector3d(along / line.length) : Eigen::Vector3d::UnitX();
+    line.u = line.direction.unitOrthogonal();
+    line.v = line.direction.cross(line.u);
+    return line;
+  }
+
+  bool IsOwn(const MeshEdge& edge, std::uint32_t face) const {
+    for (std::uint32_t i = 0; i < edge.use_count; ++i) {
+      if (table_.uses[edge.first_use + i].face == face) return true;
+    }
+    return false;
+  }
+
+  void FindContacts(const MeshEdge& edge, const Line& line, Workspace& w) const {
+    w.contacts.clear();
+    const double tolerance = options_.adjoin_m;
+    Eigen::AlignedBox3d box(line.start);
+    box.extend(set_.vertices[edge.b]);
+    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(tolerance);
+    grid_.Query({box.min() - margin, box.max() + margin}, w.candidates);
+    for (const std::uint32_t f : w.candidates) {
+      if (IsOwn(edge, f)) continue;
+      const Eigen::AlignedBox3d grown(grid_.box(f).min() - margin, grid_.box(f).max() + margin);
+      double from = 0.0;
+      double to = line.length;
+      if (!ClipToBox(line, grown, from, to) || to - from < tolerance) continue;
+      const Face& face = set_.faces[f];
+      const auto height = [&](double t) {
+        return std::abs(face.normal.dot(line.start + t * line.direction - face.centroid));
+      };
+      if (height(from) <= tolerance && height(to) <= tolerance) w.contacts.push_back({f, from, to});
+    }
+  }
+
+  static bool ClipToBox(const Line& line,
+                        const Eigen::AlignedBox3d& box,
+                        double& from,
+                        double& to) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double start = line.start[axis];
+      const double slope = line.direction[axis];
+      if (std::abs(slope) < 1e-12) {
+        if (start < box.min()[axis] || start > box.max()[axis]) return false;
+        continue;
+      }
+      const double t0 = (box.min()[axis] - start) / slope;
+      const double t1 = (box.max()[axis] - start) / slope;
+      from = std::max(from, std::min(t0, t1));
+      to = std::min(to, std::max(t0, t1));
+    }
+    return from < to;
+  }
+
+  // Where the corners of touching faces lie on the line, and where their edges cross it.
+  void FindCuts(const Line& line, Workspace& w) const {
+    const double tolerance = options_.adjoin_m;
+    w.cuts = {0.0, line.length};
+    const auto add = [&](double t) {
+      if (t > tolerance && t < line.length - tolerance) w.cuts.push_back(t);
+    };
+    for (const Contact& contact : w.contacts) {
+      const Face& face = set_.faces[contact.face];
+      const Eigen::Vector3d across = face.normal.cross(line.direction).normalized();
+      for (std::uint32_t r = face.first_ring; r < face.first_ring + face.ring_count; ++r) {
+        const std::span<const std::uint32_t> ring = set_.Ring(r);
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+          const Eigen::Vector3d a = set_.vertices[ring[i]] - line.start;
+          const Eigen::Vector3d b = set_.vertices[ring[(i + 1) % ring.size()]] - line.start;
+          const double side_a = a.dot(across);
+          const double side_b = b.dot(across);
+          if (std::abs(side_a) <= tolerance) add(a.dot(line.direction));
+          const bool crosses = (side_a > tolerance && side_b < -tolerance) ||
+                               (side_a < -tolerance && side_b > tolerance);
+          if (crosses) {
+            const double s = side_a / (side_a - side_b);
+            add((a + s * (b - a)).dot(line.direction));
+          }
+        }
+      }
+    }
+    std::sort(w.cuts.begin(), w.cuts.end());
+    const auto close = [&](double a, double b) { return b - a < tolerance; };
+    w.cuts.erase(std::unique(w.cuts.begin(), w.cuts.end(), close), w.cuts.end());
+    w.cuts.back() = line.length;
+  }
+
+  // The faces around the line at `t`. False if a piece of another edge, of lower index, is the
+  // same.
+  bool CollectHalfPlanes(std::uint32_t index, const Line& line, double t, Workspace& w) const {
+    w.half_planes.clear();
+    const MeshEdge& edge = table_.edges[index];
+    for (std::uint32_t i = 0; i < edge.use_count; ++i) {
+      const EdgeUse& use = table_.uses[edge.first_use + i];
+      AddHalfPlane(line, use.face, use.forward ? 1.0 : -1.0, w);
+    }
+    const Eigen::Vector3d middle = line.start + t * line.direction;
+    for (const Contact& contact : w.contacts) {
+      if (t < contact.from || t > contact.to) continue;
+      const Face& face = set_.faces[contact.face];
+      if (RepeatedBy(face, line, middle, index)) return false;
+      // Just beside the line, but farther than the face may be shifted.
+      const Eigen::Vector3d across = face.normal.cross(line.direction).normalized();
+      const double step = 2.5 * options_.adjoin_m;
+      if (Contains(face, middle + step * across)) AddHalfPlane(line, contact.face, 1.0, w);
+      if (Contains(face, middle - step * across)) AddHalfPlane(line, contact.face, -1.0, w);
+    }
+    return true;
+  }
+
+  void AddHalfPlane(const Line& line, std::uint32_t face, double side, Workspace& w) const {
+    const Eigen::Vector3d& normal = set_.faces[face].normal;
+    // Counter-clockwise about the normal, the interior is left of the direction of travel.
+    const Eigen::Vector3d across = side * normal.cross(line.direction);
+    const Eigen::Vector3d turn = line.direction.cross(across);  // towards larger angles
+    w.half_planes.push_back({face, line.AngleOf(across), turn.dot(normal) >= 0.0 ? 1.0 : -1.0});
+  }
+
+  bool RepeatedBy(const Face& face,
+                  const Line& line,
+                  const Eigen::Vector3d& middle,
+                  std::uint32_t index) const {
+    const double tolerance = options_.adjoin_m;
+    for (std::uint32_t r = face.first_ring; r < face.first_ring + face.ring_count; ++r) {
+      const std::span<const std::uint32_t> ring = set_.Ring(r);
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        if (table_.edge_of_corner[set_.rings[r].first + i] >= index) continue;
+        const Eigen::Vector3d& a = set_.vertices[ring[i]];
+        const Eigen::Vector3d along = set_.vertices[ring[(i + 1) % ring.size()]] - a;
+        const double length = along.norm();
+        if (length < tolerance) continue;
+        const double s = (middle - a).dot(along) / length;
+        if (s < 0.0 || s > length) continue;
+        if ((middle - a - s / length * along).squaredNorm() > tolerance * tolerance) continue;
+        if (along.cross(line.direction).norm() < kSameDirection * length) return true;
+      }
+    }
+    return false;
+  }
+
+  // Even-odd test in the face's plane, along the axis of its largest normal component.
+  bool Contains(const Face& face, const Eigen::Vector3d& point) const {
+    int axis = 0;
+    face.normal.cwiseAbs().maxCoeff(&axis);
+    const int x = (axis + 1) % 3;
+    const int y = (axis + 2) % 3;
+    bool inside = false;
+    for (std::uint32_t r = face.first_ring; r < face.first_ring + face.ring_count; ++r) {
+      const std::span<const std::uint32_t> ring = set_.Ring(r);
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        const Eigen::Vector3d& a = set_.vertices[ring[i]];
+        const Eigen::Vector3d& b = set_.vertices[ring[(i + 1) % ring.size()]];
+        if ((a[y] > point[y]) == (b[y] > point[y])) continue;
+        const double at = a[x] + (point[y] - a[y]) / (b[y] - a[y]) * (b[x] - a[x]);
+        if (point[x] < at) inside = !inside;
+      }
+    }
+    return inside;
+  }
+
+  // Removes faces that hide each other: back to back (both), or one on the other (one of them).
+  void RemoveHidden(std::vector<HalfPlane>& planes) const {
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+      for (std::size_t j = i + 1; j < planes.size(); ++j) {
+        if (AngleBetween(planes[i].angle, planes[j].angle) > kSameDirection) continue;
+        const double cosine =
+            set_.faces[planes[i].face].normal.dot(set_.faces[planes[j].face].normal);
+        planes.erase(planes.begin() + static_cast<std::ptrdiff_t>(j));
+        if (cosine < kOpposite) planes.erase(planes.begin() + static_cast<std::ptrdiff_t>(i));
+        return RemoveHidden(planes);
+      }
+    }
+  }
+
+  bool AllOf(const std::vector<HalfPlane>& planes, SurfaceClass surface_class) const {
+    return std::all_of(planes.begin(), planes.end(), [&](const HalfPlane& plane) {
+      return set_.faces[plane.face].surface_class == surface_class;
+    });
+  }
+
+  std::optional<Piece> Judge(std::vector<HalfPlane>& planes) const {
+    RemoveHidden(planes);
+    if (planes.empty() || AllOf(planes, SurfaceClass::kClosure) ||
+        AllOf(planes, SurfaceClass::kGround)) {
+      return std::nullopt;
+    }
+    if (planes.size() == 1) return Piece{0.0, 0.0, planes[0].face, kNoSurface, false};
+    const auto [first, second, fold] = SharpestFold(planes);
+    const std::uint32_t f0 = std::min(planes[first].face, planes[second].face);
+    const std::uint32_t f1 = std::max(planes[first].face, planes[second].face);
+    if (fold >= min_fold_) return Piece{0.0, 0.0, f0, f1, false};
+    if (IsSeam(f0, f1)) return Piece{0.0, 0.0, f0, f1, true};
+    return std::nullopt;
+  }
+
+  struct Fold {
+    std::size_t first = 0;
+    std::size_t second = 0;
+    double angle = 0.0;
+  };
+
+  // Of the wedges of free space between consecutive faces, the one that is least flat.
+  static Fold SharpestFold(std::vector<HalfPlane>& planes) {
+    std::sort(planes.begin(), planes.end(), [](const HalfPlane& a, const HalfPlane& b) {
+      return a.angle < b.angle;
+    });
+    Fold best{0, 1, -1.0};
+    Fold best_free{0, 1, -1.0};
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+      const std::size_t j = (i + 1) % planes.size();
+      const double wedge = planes[j].angle - planes[i].angle + (j == 0 ? 2.0 * kPi : 0.0);
+      const double fold = std::abs(kPi - wedge);
+      const bool is_free = planes[i].free_side > 0.0 && planes[j].free_side < 0.0;
+      if (fold > best.angle) best = {i, j, fold};
+      if (is_free && fold > best_free.angle) best_free = {i, j, fold};
+    }
+    return best_free.angle >= 0.0 ? best_free : best;
+  }
+
+  bool IsSeam(std::uint32_t f0, std::uint32_t f1) const {
+    const Face& a = set_.faces[f0];
+    const Face& b = set_.faces[f1];
+    const auto is_visible = [](SurfaceClass c) {
+      return c == SurfaceClass::kWall || c == SurfaceClass::kRoof;
+    };
+    return roots_[a.building] != roots_[b.building] && a.surface_class == b.surface_class &&
+           is_visible(a.surface_class);
+  }
+
+  bool Alike(std::uint32_t f0, std::uint32_t f1) const {
+    if (f0 == f1) return true;
+    if (f0 == kNoSurface || f1 == kNoSurface) return false;
+    const Face& a = set_.faces[f0];
+    const Face& b = set_.faces[f1];
+    return a.building == b.building && a.surface_class == b.surface_class &&
+           a.normal.dot(b.normal) > kSamePlaneCosine;
+  }
+
+  void Append(const Piece& piece, std::vector<Piece>& pieces) const {
+    if (!pieces.empty()) {
+      Piece& last = pieces.back();
+      if (last.to == piece.from && last.seam == piece.seam &&
+          Alike(last.surface0, piece.surface0) && Alike(last.surface1, piece.surface1)) {
+        last.to = piece.to;
+        return;
+      }
+    }
+    pieces.push_back(piece);
+  }
+
+  const FaceSet& set_;
+  const std::vector<std::uint32_t>& roots_;
+  FeatureEdgeOptions options_;
+  double min_fold_;
+  EdgeTable table_;
+  FaceGrid grid_;
+};
+
+}  // namespace
+
+std::vector<FeatureEdge> FindFeatureEdges(const FaceSet& set,
+                                          const std::vector<std::uint32_t>& root_of_building,
+                                          const FeatureEdgeOptions& options) {
+  return EdgeFinder(set, root_of_building, options).Run();
+}
+
+}  // namespace ridgeline

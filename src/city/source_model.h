@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "city/city_model.h"
+#include "city/tally.h"
+
+namespace ridgeline {
+
+// What a model file holds, in its own coordinates and with all its levels of detail: the common
+// product of the format readers. Arrays are flat, so that a tile of millions of points is a few
+// allocations.
+
+struct SourceRing {
+  std::uint32_t first_point = 0;
+  std::uint32_t point_count = 0;  // open: the first point is not repeated at the end
+};
+
+struct SourcePolygon {
+  std::uint32_t first_ring = 0;  // the outer ring, then the holes
+  std::uint32_t ring_count = 0;
+  std::string id;  // as in the file; may be empty
+};
+
+// The use of a polygon in a building.
+struct SourceMember {
+  std::uint32_t polygon = 0;
+  std::int8_t lod = -1;
+  SurfaceClass surface_class = SurfaceClass::kOther;
+  bool has_class = false;  // from a boundary surface or semantics; otherwise its normal decides
+  bool reversed = false;   // used with its back to the outside
+};
+
+struct SourceBuilding {
+  std::string id;  // empty where the file gives none
+  int parent = -1;
+  std::vector<SourceMember> members;
+};
+
+struct SourceModel {
+  std::string file;
+  std::string format;                  // e.g. "CityGML 2.0"
+  std::vector<std::string> srs_names;  // as written, distinct, in order of appearance
+  std::vector<Eigen::Vector3d> points;
+  std::vector<SourceRing> rings;
+  std::vector<SourcePolygon> polygons;
+  std::vector<SourceBuilding> buildings;
+  Tally tally;
+};
+
+}  // namespace ridgeline
