@@ -30,12 +30,15 @@ struct Node {
   std::array<std::int32_t, 4> children;
 };
 
-// Four triangles; unused places have zero normals and so never hide anything.
+// Four triangles.
 struct Leaf {
   Vec3x4 a, b, c;
-  Vec3x4 normal;  // unit; zero for a degenerate triangle
+  Vec3x4 normal;  // unit; zero for a degenerate triangle and an unused place
   Float4 tolerance;
 };
+
+// Of degenerate triangles and unused places: nothing lies so deep.
+constexpr float kNeverHides = 1e9f;
 
 Float4 Abs(Float4 v) { return Max(v, -v); }
 Vec3x4 Splat3(const Eigen::Vector3f& v) { return {Splat(v.x()), Splat(v.y()), Splat(v.z())}; }
@@ -169,6 +172,7 @@ void SetLane(Vec3x4& target, int lane, const Eigen::Vector3f& value) {
 
 Leaf MakeLeaf(const BoxTree::Leaf& source, const std::vector<OccluderTriangle>& triangles) {
   Leaf leaf{};
+  leaf.tolerance = Splat(kNeverHides);
   for (std::size_t k = 0; k < source.primitives.size(); ++k) {
     const OccluderTriangle& t = triangles[source.primitives[k]];
     const int lane = static_cast<int>(k);
@@ -179,7 +183,8 @@ Leaf MakeLeaf(const BoxTree::Leaf& source, const std::vector<OccluderTriangle>& 
         (t.b - t.a).cast<double>().cross((t.c - t.a).cast<double>());
     const double length = normal.norm();
     // Zero area, to a millimetre squared: nothing can hide behind it.
-    if (length > 1e-6) SetLane(leaf.normal, lane, (normal / length).cast<float>());
+    if (length <= 1e-6) continue;
+    SetLane(leaf.normal, lane, (normal / length).cast<float>());
     leaf.tolerance[lane] = t.tolerance_m;
   }
   return leaf;
