@@ -54,7 +54,7 @@ class StreetLife {
                          static_cast<float>(random.Uniform(0.20, 0.32)),
                          static_cast<float>(random.Uniform(0.04, 0.10)));
     const Vector3d middle = foot + Vector3d(0.0, 0.0, 0.68 * height);
-    for (int i = 0; i < 420; ++i) AddLeaf(middle, radius, 0.34 * height, green, random);
+    for (int i = 0; i < 1100; ++i) AddLeaf(middle, radius, 0.34 * height, green, random);
   }
 
  private:
@@ -72,7 +72,7 @@ class StreetLife {
                                           half_height * r * z);
     std::array<Vector3d, 3> corners;
     for (Vector3d& corner : corners) {
-      corner = at + 0.38 * Vector3d(random.Normal(), random.Normal(), random.Normal());
+      corner = at + 0.19 * Vector3d(random.Normal(), random.Normal(), random.Normal());
     }
     mesh_.AddPolygon(
         corners, {}, Look(Material::kLeaves, green * static_cast<float>(random.Uniform(0.7, 1.3))));
@@ -81,10 +81,11 @@ class StreetLife {
   void AddCar(const Vector2d& xy, const Vector2d& along, Random& random) {
     const Vector3d foot = OnGround(xy);
     const double hue = random.Uniform();
-    const Vector3f paint = hue < 0.6 ? Gray(random.Uniform(0.03, 0.75))
-                                     : Vector3f(static_cast<float>(random.Uniform(0.02, 0.5)),
-                                                static_cast<float>(random.Uniform(0.02, 0.2)),
-                                                static_cast<float>(random.Uniform(0.02, 0.5)));
+    const auto shade = static_cast<float>(random.Uniform(0.4, 1.0));
+    const Vector3f paint = hue < 0.65   ? Gray(random.Uniform(0.03, 0.7))
+                           : hue < 0.80 ? Vector3f(0.06f, 0.12f, 0.35f) * shade
+                           : hue < 0.92 ? Vector3f(0.42f, 0.04f, 0.04f) * shade
+                                        : Vector3f(0.08f, 0.22f, 0.12f) * shade;
     const double length = random.Uniform(3.8, 4.9);
     const bool van = random.Uniform() < 0.15;
     const auto part = [&](double offset, double z, const Vector2d& lower, const Vector2d& upper,

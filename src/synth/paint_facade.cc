@@ -94,7 +94,7 @@ bool PaintShop(const Vector2f& uv, const WallLook& wall, Paint& paint) {
   const float pane = std::fmod(uv.x(), 3.4f);
   if (pane < 0.45f || uv.x() > wall.length_m - 0.45f) return false;
   const bool frame = pane < 0.55f || pane > 3.3f || uv.y() < 0.45f;
-  paint = frame ? Paint{Vector3f::Constant(0.15f), 0.0f} : Paint{Vector3f::Constant(0.06f), 0.4f};
+  paint = frame ? Paint{Vector3f::Constant(0.15f), 0.0f} : Paint{Vector3f::Constant(0.05f), 0.3f};
   return true;
 }
 

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <map>
 #include <numbers>
 #include <vector>
 
@@ -153,7 +155,9 @@ struct TownRenderer::Impl {
     Vector3f color = paint.albedo.cwiseProduct(light);
     if (paint.mirror > 0.0f) {
       const Vector3f mirrored = direction - 2.0f * direction.dot(normal) * normal;
-      color += paint.mirror * SkyColor(weather, mirrored);
+      // Near the horizon a pane mirrors the houses opposite.
+      const float sky_share = std::clamp((mirrored.z() - 0.15f) * 5.0f, 0.0f, 1.0f);
+      color += paint.mirror * (0.12f + 0.88f * sky_share) * SkyColor(weather, mirrored);
     }
     const Vector3f haze(0.72f, 0.78f, 0.85f);
     return haze + (color - haze) * std::exp(-distance / kHazeM);
@@ -216,22 +220,37 @@ ViewStatistics TownRenderer::Probe(const CameraIntrinsics& camera,
   ViewStatistics statistics;
   statistics.nearest_m = 1e9;
   std::vector<double> building_m;
-  for (int i = 0; i < kRays * kRays; ++i) {
-    const Vector2d px((i % kRays + 0.5) * camera.width / kRays,
-                      (i / kRays + 0.5) * camera.height / kRays);
-    const Vector3d ray = cam_from_local.cam_from_world.conjugate() * pinhole.RayFromImage(px);
-    const RTCRayHit hit = impl_->Trace(cam_from_local.center_in_world.cast<float>(),
-                                       ray.normalized().cast<float>());
-    if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
-      statistics.sky_share += 1.0 / (kRays * kRays);
-      continue;
+  std::map<std::uint64_t, int> rays_of_building;
+  for (int x = 0; x < kRays; ++x) {
+    bool sky_above = false;
+    bool skyline = false;
+    for (int y = 0; y < kRays; ++y) {
+      const Vector2d px((x + 0.5) * camera.width / kRays, (y + 0.5) * camera.height / kRays);
+      const Vector3d ray = cam_from_local.cam_from_world.conjugate() * pinhole.RayFromImage(px);
+      const RTCRayHit hit = impl_->Trace(cam_from_local.center_in_world.cast<float>(),
+                                         ray.normalized().cast<float>());
+      if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+        statistics.sky_share += 1.0 / (kRays * kRays);
+        sky_above = true;
+        continue;
+      }
+      const DetailTriangle& triangle = impl_->mesh.triangles[hit.hit.primID];
+      const double distance = hit.ray.tfar;
+      if (triangle.material != Material::kGround) {
+        statistics.nearest_m = std::min(statistics.nearest_m, distance);
+      }
+      const bool facade = triangle.material == Material::kFacade;
+      if (facade) ++rays_of_building[impl_->mesh.walls[triangle.wall].look];
+      if (!facade && triangle.material != Material::kRoof) continue;
+      building_m.push_back(distance);
+      skyline = skyline || sky_above;
     }
-    const Material material = impl_->mesh.triangles[hit.hit.primID].material;
-    const double distance = hit.ray.tfar;
-    if (material != Material::kGround) statistics.nearest_m = std::min(statistics.nearest_m, distance);
-    if (material == Material::kFacade || material == Material::kRoof) building_m.push_back(distance);
+    if (skyline) statistics.skyline_share += 1.0 / kRays;
   }
   statistics.building_share = static_cast<double>(building_m.size()) / (kRays * kRays);
+  for (const auto& [look, rays] : rays_of_building) {
+    if (rays >= kRays * kRays / 100) ++statistics.buildings;
+  }
   if (!building_m.empty()) {
     const auto middle = building_m.begin() + static_cast<long>(building_m.size() / 2);
     std::nth_element(building_m.begin(), middle, building_m.end());

@@ -15,8 +15,10 @@ namespace ridgeline {
 struct ViewStatistics {
   double building_share = 0.0;
   double sky_share = 0.0;
-  double nearest_m = 0.0;        // along the rays
+  double nearest_m = 0.0;          // along the rays
   double median_building_m = 0.0;  // 0 without buildings
+  int buildings = 0;               // that fill at least 1 % of the view
+  double skyline_share = 0.0;      // columns with sky above a building
 };
 
 // Ray tracer for photos of the town: sun with shadows, sky light with ambient occlusion, haze.

@@ -79,9 +79,10 @@ Viewpoint Draw(const Town& town, ViewKind kind, int width, int height, Random& r
 
 bool IsGood(const Town& town, const Viewpoint& view, const ViewStatistics& seen, bool drone) {
   const Vector2d xy = view.cam_from_local.center_in_world.head<2>();
-  if (drone) return seen.building_share > 0.3;
-  return !town.InBuilding(xy, 0.7) && seen.building_share > 0.3 && seen.sky_share > 0.06 &&
-         seen.sky_share < 0.6 && seen.nearest_m > 3.0 && seen.median_building_m > 9.0;
+  if (drone) return seen.building_share > 0.35 && seen.buildings >= 4;
+  return !town.InBuilding(xy, 0.7) && seen.building_share > 0.2 && seen.buildings >= 3 &&
+         seen.skyline_share > 0.6 && seen.sky_share < 0.6 && seen.nearest_m > 3.0 &&
+         seen.median_building_m > 12.0;
 }
 
 }  // namespace
