@@ -66,7 +66,8 @@ std::optional<Eigen::Vector3d> PoseSpace::PositionAt(double east_m,
                                                      double north_m,
                                                      double height_m) const {
   const Eigen::Vector2d xy = center_ + Eigen::Vector2d(east_m, north_m);
-  const std::optional<double> ground = dtm_ != nullptr ? dtm_->HeightAt(xy) : std::nullopt;
+  std::optional<double> ground;
+  if (dtm_ != nullptr) ground = dtm_->HeightAt(xy);
   if (!height_ && !ground) return std::nullopt;
   const double z = (height_ ? *height_ : *ground + ranges_.camera_height_m) + height_m;
   if (ranges_.free_space) {

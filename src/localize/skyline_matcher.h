@@ -50,6 +50,9 @@ struct SkylineMatchOptions {
   bool free_height = false;
   // Distance at which a match is believed [px at 640], and by how much it may leave the start.
   double max_distance_px = 12.0;
+  // A match is ambiguous if a heading more than scan_step_deg * 2 away on the grid is no worse than
+  // this many times the best distance, both increased by 1 px.
+  double ambiguous_ratio = 1.15;
   double max_heading_deg = 30.0;
   double max_tilt_deg = 12.0;
   double max_shift_m = 20.0;
@@ -64,10 +67,11 @@ SkylineMatch SkylineMatchNamed(const std::string& name);
 
 enum class SkylineMatchStatus : std::uint8_t {
   kOk,
-  kUnusable,     // no sky, or a skyline known in too few columns
-  kNoModel,      // no building reaches above the horizon in this direction
-  kFarFromStart, // the best pose is farther from the start than the sensors can be wrong
-  kPoorMatch,    // the skylines differ by more than max_distance_px
+  kUnusable,      // no sky, or a skyline known in too few columns
+  kNoModel,       // no building reaches above the horizon in this direction
+  kFarFromStart,  // the best pose is as far from the start as the limits allow
+  kPoorMatch,     // the skylines differ by more than max_distance_px
+  kAmbiguous,     // another heading fits as well
 };
 
 struct SkylineMatchResult {
