@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "camera/intrinsics.h"
+#include "camera/pose.h"
+#include "lines/line_segment.h"
+#include "projection/scene.h"
+#include "report/overlay.h"
+#include "score/edge_kind.h"
+#include "skyline/skyline.h"
+
+namespace ridgeline {
+
+// Colour and name of a kind of edge; the same in every overlay and in the report.
+Rgb EdgeColor(EdgeKind kind);
+const char* EdgeName(EdgeKind kind);
+
+// The model's visible edges from a pose (local frame), one layer per kind.
+std::vector<OverlayLayer> ModelEdgeLayers(const Scene& scene,
+                                          const PinholeCamera& camera,
+                                          const Pose& cam_from_local);
+
+// The same edges in one thin grey layer, e.g. for the prior.
+OverlayLayer PlainEdgeLayer(const Scene& scene,
+                            const PinholeCamera& camera,
+                            const Pose& cam_from_local,
+                            std::string name);
+
+// Segments found in the picture.
+OverlayLayer SegmentLayer(std::span<const LineSegment> segments);
+
+// The skyline found in the picture, where it is known.
+OverlayLayer SkylineLayer(const Skyline& skyline);
+
+// The model's skyline (buildings and terrain) from a pose.
+OverlayLayer ModelSkylineLayer(const Scene& scene,
+                               const PinholeCamera& camera,
+                               const Pose& cam_from_local);
+
+}  // namespace ridgeline
