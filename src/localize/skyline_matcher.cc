@@ -49,6 +49,17 @@ double Excess(std::span<const double> o, const SkylineMatchOptions& options) {
   return std::max(0.0, used - 1.0);
 }
 
+// What leaving the start costs [px at 640].
+double SensorCost(std::span<const double> o, const SkylineMatchOptions& options) {
+  const auto squared = [](double value) { return value * value; };
+  return options.sensor_weight_px *
+         (squared(o[kHeading] / options.heading_sigma_deg) +
+          squared(o[kPitch] / options.tilt_sigma_deg) + squared(o[kRoll] / options.tilt_sigma_deg) +
+          squared(o[kEast] / options.position_sigma_m) +
+          squared(o[kNorth] / options.position_sigma_m) +
+          squared(o[kHeight] / options.height_sigma_m));
+}
+
 // Azimuths that the picture can show at any pose within the limits.
 Sector SectorOf(const Pose& start, const PinholeCamera& camera, const SkylineMatchOptions& options) {
   const Eigen::Quaterniond world_from_cam = start.cam_from_world.conjugate();
@@ -110,7 +121,8 @@ class Matcher {
     const auto distance = [&](std::span<const double> v) {
       ++evaluations_;
       drawing.Rows(motion_of(v), rows_);
-      return real_.DistanceOfRows(rows_);
+      const Offsets o{v[0] / px_per_deg, v[1] / px_per_deg, v[2] / kRad, 0.0, 0.0, 0.0};
+      return real_.DistanceOfRows(rows_) + SensorCost(o, options_);
     };
     std::vector<double> best{0.0, 0.0, 0.0};
     ScanGrid(scan_share, [&](double heading_deg, double pitch_deg) {
@@ -141,7 +153,7 @@ class Matcher {
     const auto distance = [&](std::span<const double> o) {
       const double excess = Excess(o, options_);
       if (excess > 0.0) return kSkylineReferenceWidthPx * (1.0 + excess);
-      return DistanceAt(PoseAt(start_, o));
+      return DistanceAt(PoseAt(start_, o)) + SensorCost(o, options_);
     };
     ScanGrid(1.0, [&](double heading_deg, double pitch_deg) {
       return distance(Offsets{heading_deg, pitch_deg, 0.0, 0.0, 0.0, 0.0});
@@ -263,6 +275,11 @@ void SkylineMatchOptions::Visit(OptionVisitor& v) {
   v.Field("shrink", shrink);
   v.Field("max_evaluations", max_evaluations);
   v.Field("free_height", free_height);
+  v.Field("sensor_weight_px", sensor_weight_px);
+  v.Field("heading_sigma_deg", heading_sigma_deg);
+  v.Field("tilt_sigma_deg", tilt_sigma_deg);
+  v.Field("position_sigma_m", position_sigma_m);
+  v.Field("height_sigma_m", height_sigma_m);
   v.Field("max_distance_px", max_distance_px);
   v.Field("ambiguous_ratio", ambiguous_ratio);
   v.Field("max_heading_deg", max_heading_deg);
@@ -285,11 +302,16 @@ void SkylineMatchOptions::Validate() const {
                                                      {"roll_step_deg", roll_step_deg},
                                                      {"position_step_m", position_step_m},
                                                      {"height_step_m", height_step_m},
+                                                     {"heading_sigma_deg", heading_sigma_deg},
+                                                     {"tilt_sigma_deg", tilt_sigma_deg},
+                                                     {"position_sigma_m", position_sigma_m},
+                                                     {"height_sigma_m", height_sigma_m},
                                                      {"max_distance_px", max_distance_px},
                                                      {"max_heading_deg", max_heading_deg},
                                                      {"max_tilt_deg", max_tilt_deg},
                                                      {"max_shift_m", max_shift_m}};
   for (const auto& [name, value] : positive) require(value > 0.0, name, value, "more than 0");
+  require(sensor_weight_px >= 0.0, "sensor_weight_px", sensor_weight_px, "at least 0");
   require(rounds >= 1, "rounds", rounds, "at least 1");
   require(shrink > 0.0 && shrink < 1.0, "shrink", shrink, "(0, 1)");
   require(max_evaluations >= 1, "max_evaluations", max_evaluations, "at least 1");

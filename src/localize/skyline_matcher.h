@@ -48,6 +48,14 @@ struct SkylineMatchOptions {
   int max_evaluations = 80;
   // 6dof: whether the height is a variable.
   bool free_height = false;
+  // What the sensors are worth: a deviation from the start by these costs sensor_weight_px more
+  // [px at 640], by twice as much four times that. Keeps variables that the skyline does not
+  // determine near the start. 0: the distance alone, as in the paper.
+  double sensor_weight_px = 0.3;
+  double heading_sigma_deg = 10.0;
+  double tilt_sigma_deg = 1.5;
+  double position_sigma_m = 6.0;
+  double height_sigma_m = 1.0;
   // Distance at which a match is believed [px at 640], and by how much it may leave the start.
   double max_distance_px = 12.0;
   // A match is ambiguous if a heading more than scan_step_deg * 2 away on the grid is no worse than

@@ -38,6 +38,7 @@ void SkylineL1Options::Validate() const {
   require(precision_px >= 0.0, "precision_px", precision_px, "at least 0");
   require(half_energy_px > 0.0, "half_energy_px", half_energy_px, "more than 0");
   require(max_deviation_px > 0.0, "max_deviation_px", max_deviation_px, "more than 0");
+  require(max_obstructed_px > 0.0, "max_obstructed_px", max_obstructed_px, "more than 0");
   require(columns >= 8 && columns <= kMaxColumns, "columns", columns, "8 to 640");
   require(min_known_share >= 0.0 && min_known_share <= 1.0,
           "min_known_share",
@@ -76,7 +77,8 @@ SkylineL1::SkylineL1(const Skyline& real,
       half_energy_px_(options.half_energy_px) {
   px_scale_ = static_cast<float>(kSkylineReferenceWidthPx / camera_.width);
   max_deviation_ = static_cast<float>(options.max_deviation_px) / px_scale_;
-  if (!options.robust) max_deviation_ = static_cast<float>(camera_.height);
+  max_obstructed_ = static_cast<float>(options.max_obstructed_px) / px_scale_;
+  if (!options.robust) max_deviation_ = max_obstructed_ = static_cast<float>(camera_.height);
   const Skyline clean =
       CleanSkyline(real, options.precision_px * real.image_width / kSkylineReferenceWidthPx);
   const double column_px = static_cast<double>(real.image_width) / camera_.width;
@@ -104,10 +106,12 @@ double SkylineL1::DistanceOfRows(std::span<const float> rows) const {
   const float bottom = static_cast<float>(camera_.height);
   float sum = 0.0f;
   for (std::size_t c = 0; c < rows_.size(); ++c) {
-    const float deviation = std::isnan(rows[c])
-                                ? max_deviation_
-                                : std::abs(std::clamp(rows[c], 0.0f, bottom) - rows_[c]);
-    sum += weights_[c] * std::min(deviation, max_deviation_);
+    float deviation = max_deviation_;
+    if (!std::isnan(rows[c])) {
+      const float below = std::clamp(rows[c], 0.0f, bottom) - rows_[c];
+      deviation = below > 0.0f ? std::min(below, max_obstructed_) : std::min(-below, max_deviation_);
+    }
+    sum += weights_[c] * deviation;
   }
   return sum / weight_sum_ * px_scale_;
 }

@@ -25,8 +25,11 @@ struct SkylineL1Options {
   // Leave out unknown columns, weigh the others by their confidence, and limit what one column can
   // count. False: the paper's plain mean over all columns.
   bool robust = true;
-  // Most that a column counts if robust [px at 640].
+  // Most that a column counts if robust [px at 640]: where there is sky below the virtual skyline,
+  // and where the real one is above it. The second is common, since trees and what the model lacks
+  // hide the sky.
   double max_deviation_px = 60.0;
+  double max_obstructed_px = 20.0;
   // Columns compared, spread evenly over the picture; at most 640.
   int columns = 320;
   // Least share of known columns for the picture to be usable.
@@ -37,6 +40,7 @@ struct SkylineL1Options {
     v.Field("half_energy_px", half_energy_px);
     v.Field("robust", robust);
     v.Field("max_deviation_px", max_deviation_px);
+    v.Field("max_obstructed_px", max_obstructed_px);
     v.Field("columns", columns);
     v.Field("min_known_share", min_known_share);
   }
@@ -85,7 +89,8 @@ class SkylineL1 {
   SkylineUse use_ = SkylineUse::kUsable;
   PinholeCamera camera_;
   double half_energy_px_ = 0.0;
-  float max_deviation_ = 0.0f;  // [px of camera_]
+  float max_deviation_ = 0.0f;   // [px of camera_]
+  float max_obstructed_ = 0.0f;  // [px of camera_]
   float px_scale_ = 1.0f;       // [px at 640 per px of camera_]
   std::vector<float> rows_;
   std::vector<float> weights_;

@@ -22,12 +22,22 @@ float Ramp(float value, float zero, float one) {
 
 // Signs of leaves in one column, each as a mean over the strip below the boundary.
 struct Signs {
-  float texture = 0.0f;  // step to the next pixel [grey values of green]
+  float level = 0.0f;    // green channel
+  float texture = 0.0f;  // step of green to the next pixel
   float green = 0.0f;    // green over the larger of red and blue
   float yellow = 0.0f;   // the smaller of red and green over blue
   float sky = 0.0f;      // share of pixels that look like sky
   float ragged = 0.0f;   // second difference of the boundary [px]
 };
+
+Signs Scaled(const Signs& s, float scale) {
+  return {s.level * scale,
+          s.texture * scale,
+          s.green * scale,
+          s.yellow * scale,
+          s.sky * scale,
+          s.ragged * scale};
+}
 
 Signs SignsBelow(const cv::Mat& bgr, const cv::Mat& log_odds, int column, int first, int last) {
   Signs s;
@@ -38,19 +48,23 @@ Signs SignsBelow(const cv::Mat& bgr, const cv::Mat& log_odds, int column, int fi
     const std::uint8_t* p = bgr.ptr(y) + 3 * column;
     const std::uint8_t* q = bgr.ptr(y) + 3 * next;
     const std::uint8_t* r = bgr.ptr(std::min(y + 1, bgr.rows - 1)) + 3 * column;
+    s.level += p[1];
     s.texture += static_cast<float>(std::abs(p[1] - q[1]) + std::abs(p[1] - r[1])) * 0.5f;
     s.green += static_cast<float>(p[1] - std::max(p[0], p[2]));
     s.yellow += static_cast<float>(std::min(p[1], p[2]) - p[0]);
     s.sky += log_odds.at<float>(y, column) > 0.0f ? 1.0f : 0.0f;
   }
   const float scale = 1.0f / static_cast<float>(count);
-  return {s.texture * scale, s.green * scale, s.yellow * scale, s.sky * scale, 0.0f};
+  return Scaled(s, scale);
 }
 
 float Foliage(const Signs& s) {
-  const float textured = Ramp(s.texture, 6.0f, 16.0f);
-  const float score = 1.2f * textured + 0.8f * Ramp(s.green, 2.0f, 14.0f) +
-                      0.6f * textured * Ramp(s.yellow, 20.0f, 60.0f) +
+  // Leaves in shadow are as green and as textured as in the sun, relative to their brightness.
+  const float dark = 1.0f / (s.level + 20.0f);
+  const float textured =
+      std::max(Ramp(s.texture, 6.0f, 16.0f), 0.8f * Ramp(s.texture * dark, 0.03f, 0.12f));
+  const float score = 1.1f * textured + 1.4f * Ramp(s.green * dark, 0.05f, 0.15f) +
+                      0.9f * textured * Ramp(s.yellow * dark, 0.28f, 0.4f) +
                       0.8f * Ramp(s.ragged, 0.8f, 3.0f) + 0.8f * Ramp(s.sky, 0.05f, 0.3f);
   return Ramp(score, 1.1f, 2.0f);
 }
@@ -83,6 +97,7 @@ std::vector<float> FoliageAlong(const cv::Mat& bgr,
     Signs mean;
     for (int k = from; k < to; ++k) {
       const Signs& s = signs[static_cast<std::size_t>(k)];
+      mean.level += s.level;
       mean.texture += s.texture;
       mean.green += s.green;
       mean.yellow += s.yellow;
@@ -90,11 +105,7 @@ std::vector<float> FoliageAlong(const cv::Mat& bgr,
       mean.ragged += s.ragged;
     }
     const float scale = 1.0f / static_cast<float>(to - from);
-    foliage.push_back(Foliage({mean.texture * scale,
-                               mean.green * scale,
-                               mean.yellow * scale,
-                               mean.sky * scale,
-                               mean.ragged * scale}));
+    foliage.push_back(Foliage(Scaled(mean, scale)));
   }
   return foliage;
 }
