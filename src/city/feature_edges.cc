@@ -374,12 +374,14 @@ class EdgeFinder {
   }
 
   std::optional<Piece> Judge(std::vector<HalfPlane>& planes) const {
+    const std::size_t met = planes.size();
     RemoveHidden(planes);
     if (planes.empty() || AllOf(planes, SurfaceClass::kClosure) ||
         AllOf(planes, SurfaceClass::kGround)) {
       return std::nullopt;
     }
-    if (planes.size() == 1) return Piece{0.0, 0.0, planes[0].face, kNoSurface, false};
+    // A border beside hidden faces: the neighbour goes on, a step of a few centimetres apart.
+    if (planes.size() == 1) return Piece{0.0, 0.0, planes[0].face, kNoSurface, met > 2};
     const auto [first, second, fold] = SharpestFold(planes);
     const std::uint32_t f0 = std::min(planes[first].face, planes[second].face);
     const std::uint32_t f1 = std::max(planes[first].face, planes[second].face);

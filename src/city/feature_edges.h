@@ -10,7 +10,7 @@ namespace ridgeline {
 
 struct FeatureEdgeOptions {
   double min_dihedral_deg = 10.0;  // smallest fold between the two exposed faces
-  double adjoin_m = 0.03;          // faces and edges closer than this touch
+  double adjoin_m = 0.05;          // faces and edges closer than this touch
   int threads = 0;
 };
 

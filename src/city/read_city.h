@@ -23,7 +23,7 @@ struct CityOptions {
   // Vertices closer than this are one [m].
   double weld_m = 0.005;
   // Faces and edges closer than this touch, e.g. the walls that adjoining buildings share [m].
-  double adjoin_m = 0.03;
+  double adjoin_m = 0.05;
   // Threads; 0: all.
   int threads = 0;
 

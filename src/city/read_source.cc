@@ -5,9 +5,10 @@
 #include <array>
 #include <string>
 
-#include "base/error.h"
 #include "city/input_file.h"
 #include "city/read_citygml.h"
+#include "city/read_cityjson.h"
+#include "city/read_obj.h"
 
 namespace ridgeline {
 namespace {
@@ -25,13 +26,25 @@ std::string ModelExtension(const std::filesystem::path& path) {
 }  // namespace
 
 bool LooksLikeModelFile(const std::filesystem::path& path) {
-  static constexpr std::array kExtensions = {".gml", ".citygml", ".xml"};
+  static constexpr std::array kModels = {".gml", ".citygml", ".jsonl", ".obj", ".ply"};
+  static constexpr std::array kPerhaps = {".xml", ".json"};
   const std::string extension = ModelExtension(path);
-  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+  if (std::find(kModels.begin(), kModels.end(), extension) != kModels.end()) return true;
+  if (std::find(kPerhaps.begin(), kPerhaps.end(), extension) == kPerhaps.end()) return false;
+  // Many other files are JSON or XML; a city model names itself early on.
+  std::string head(4096, '\0');
+  head.resize(InputFile(path).Read(head.data(), head.size()));
+  return head.find("CityModel") != std::string::npos || head.find("CityJSON") != std::string::npos;
 }
 
 SourceModel ReadSource(const std::filesystem::path& path) {
   InputFile file(path);
+  const std::string extension = ModelExtension(path);
+  if (extension == ".json" || extension == ".jsonl" || extension == ".cityjson") {
+    return ReadCityJson(file);
+  }
+  if (extension == ".obj") return ReadObj(file);
+  if (extension == ".ply") return ReadPly(file);
   return ReadCityGml(file);
 }
 

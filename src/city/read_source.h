@@ -7,8 +7,8 @@
 
 namespace ridgeline {
 
-// Whether a folder's file is taken for a model, by its name: *.gml, *.citygml, *.xml, *.json,
-// *.jsonl, *.obj, *.ply, also with .gz.
+// Whether a folder's file is taken for a model: *.gml, *.citygml, *.jsonl, *.obj, *.ply, and those
+// *.xml and *.json that say CityModel or CityJSON near their beginning; all also with .gz.
 bool LooksLikeModelFile(const std::filesystem::path& path);
 
 // Reads a model file of any known format, told by its name, in its own coordinates. Throws

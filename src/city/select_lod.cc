@@ -25,14 +25,14 @@ std::vector<std::int8_t> SelectLod(SourceModel& model, int wanted) {
   const std::size_t count = model.buildings.size();
   std::vector<Levels> own(count, 0);
   std::vector<Levels> tree(count, 0);  // with the parts
-  for (std::size_t b = count; b-- > 0;) {
+  for (std::size_t b = 0; b < count; ++b) {
     for (const SourceMember& member : model.buildings[b].members) {
       own[b] |= static_cast<Levels>(1 << member.lod);
     }
-    tree[b] |= own[b];
-    // Parts follow their building in the list.
-    if (const int parent = model.buildings[b].parent; parent >= 0) {
-      tree[static_cast<std::size_t>(parent)] |= tree[b];
+    int whole = static_cast<int>(b);
+    while (whole >= 0) {
+      tree[static_cast<std::size_t>(whole)] |= own[b];
+      whole = model.buildings[static_cast<std::size_t>(whole)].parent;
     }
   }
   std::vector<std::int8_t> chosen(count, -1);
