@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -23,6 +24,9 @@ using simd::Vec3x4;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // Shadows of neighbouring triangles meet within the rounding of floats.
 constexpr float kJoin = 4e-6f;
+
+// An empty place in a node: this negative extent is outside of everything.
+constexpr float kNoBox = 1e12f;
 
 struct Node {
   Vec3x4 center;
@@ -102,6 +106,18 @@ void Clip(Float4 at_a, Float4 at_b, Float4& first, Float4& last) {
   last = Min(last, slope < 0.0f ? zero : (slope > 0.0f ? all : flat_last));
 }
 
+// Whether a triangle of the leaf reaches both sides of a plane through the eye: only such a one can
+// hide a part of a segment in that plane.
+bool CrossesPlane(const Leaf& leaf, const Vec3x4& eye, const Vec3x4& plane_normal) {
+  const Float4 a = Dot(plane_normal, leaf.a - eye);
+  const Float4 b = Dot(plane_normal, leaf.b - eye);
+  const Float4 c = Dot(plane_normal, leaf.c - eye);
+  const Float4 lowest = Min(Min(a, b), c);
+  const Float4 highest = Max(Max(a, b), c);
+  const simd::Int4 crosses = (lowest <= 0.0f) & (highest >= 0.0f);
+  return simd::Bits(crosses) != 0;
+}
+
 // Shadows of a leaf's triangles on the segment a-b; empty where first >= last.
 void Shadows(const Leaf& leaf,
              const Vec3x4& eye,
@@ -144,6 +160,15 @@ void AddHidden(Interval added, std::vector<Interval>& hidden) {
   hidden[begin] = added;
   hidden.erase(hidden.begin() + static_cast<std::ptrdiff_t>(begin) + 1,
                hidden.begin() + static_cast<std::ptrdiff_t>(end));
+}
+
+// Index of a direction among `count` ranges around the vertical axis, without trigonometry.
+std::size_t AzimuthRange(const Eigen::Vector3f& p, std::size_t count) {
+  const float sum = std::abs(p.x()) + std::abs(p.y());
+  if (!(sum > 0.0f)) return 0;
+  const float quarter = p.y() / sum;                              // [-1, 1]
+  const float turn = p.x() >= 0.0f ? 1.0f - quarter : 3.0f + quarter;  // [0, 4]
+  return std::min(count - 1, static_cast<std::size_t>(turn * 0.25f * static_cast<float>(count)));
 }
 
 bool HasGap(const std::vector<Interval>& hidden, float min_part) {
@@ -195,7 +220,7 @@ Node MakeNode(const BoxTree::Node& source) {
   node.children = source.children;
   for (int k = 0; k < 4; ++k) {
     if (source.children[k] == BoxTree::kNone) {
-      SetLane(node.extent, k, Eigen::Vector3f::Constant(-kInfinity));
+      SetLane(node.extent, k, Eigen::Vector3f::Constant(-kNoBox));
       continue;
     }
     SetLane(node.center, k, source.boxes[k].center());
@@ -209,11 +234,10 @@ Node MakeNode(const BoxTree::Node& source) {
 
 OccluderBvh::OccluderBvh(const std::vector<OccluderTriangle>& triangles)
     : impl_(std::make_unique<Impl>()) {
-  std::vector<Eigen::AlignedBox3f> boxes(triangles.size());
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    boxes[i].extend(triangles[i].a).extend(triangles[i].b).extend(triangles[i].c);
-  }
-  const BoxTree tree = BuildBoxTree(boxes, 4);
+  std::vector<std::array<Eigen::Vector3f, 3>> corners;
+  corners.reserve(triangles.size());
+  for (const OccluderTriangle& t : triangles) corners.push_back({t.a, t.b, t.c});
+  const BoxTree tree = BuildTriangleTree(corners, 4);
   impl_->nodes.reserve(tree.nodes.size());
   for (const BoxTree::Node& node : tree.nodes) impl_->nodes.push_back(MakeNode(node));
   impl_->leaves.reserve(tree.leaves.size());
@@ -245,23 +269,27 @@ void OccluderBvh::VisibleParts(const Eigen::Vector3f& eye,
   const Vec3x4 eye4 = Splat3(eye);
   const Vec3x4 a4 = Splat3(a);
   const Vec3x4 b4 = Splat3(b);
+  const Vec3x4 plane4 = Splat3(normal);
+  const std::size_t range = AzimuthRange(a + b, workspace.leaf_at_azimuth.size());
 
   // Returns false when nothing is left of the segment.
   const auto cast_leaf = [&](std::uint32_t index) {
     Float4 first, last;
-    Shadows(impl_->leaves[index], eye4, a4, b4, first, last);
-    bool changed = false;
-    for (int k = 0; k < 4; ++k) {
-      if (!(first[k] < last[k])) continue;
+    const Leaf& leaf = impl_->leaves[index];
+    if (!CrossesPlane(leaf, eye4, plane4)) return true;
+    Shadows(leaf, eye4, a4, b4, first, last);
+    unsigned found = simd::Bits(first < last);
+    if (found == 0) return true;
+    for (; found != 0; found &= found - 1) {
+      const int k = std::countr_zero(found);
       AddHidden({first[k], last[k]}, hidden);
-      changed = true;
     }
-    if (!changed || HasGap(hidden, min_part)) return true;
-    workspace.last_leaf = index;
+    if (HasGap(hidden, min_part)) return true;
+    workspace.leaf_at_azimuth[range] = index;
     return false;
   };
 
-  if (workspace.last_leaf < impl_->leaves.size() && !cast_leaf(workspace.last_leaf)) return;
+  if (!cast_leaf(workspace.leaf_at_azimuth[range])) return;
 
   const Wedge wedge(a, b, normal.normalized());
   struct Entry {
@@ -287,8 +315,8 @@ void OccluderBvh::VisibleParts(const Eigen::Vector3f& eye,
     const Float4 distance2 = Dot(gap, gap);
     // Insertion keeps the nearest child on top of the stack.
     const std::size_t bottom = size;
-    for (int k = 0; k < 4; ++k) {
-      if (outside[k] > 0.0f || node.children[k] == BoxTree::kNone) continue;
+    for (unsigned inside = simd::Bits(outside <= 0.0f); inside != 0; inside &= inside - 1) {
+      const int k = std::countr_zero(inside);
       const Entry entry{distance2[k], node.children[k]};
       std::size_t place = size++;
       while (place > bottom && stack[place - 1].distance2 < entry.distance2) {

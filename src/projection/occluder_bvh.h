@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -30,7 +31,8 @@ class OccluderBvh {
   // Working memory of a query, reused between queries of one thread.
   struct Workspace {
     std::vector<Interval> hidden;  // disjoint, in order
-    std::uint32_t last_leaf = 0;   // the leaf that completed the last hidden segment: tried first
+    // Per range of azimuths the leaf that completed the last hidden segment there: tried first.
+    std::array<std::uint32_t, 256> leaf_at_azimuth{};
   };
 
   explicit OccluderBvh(const std::vector<OccluderTriangle>& triangles);

@@ -113,7 +113,6 @@ VisibleSet Scene::VisibleFrom(const Eigen::Vector3d& position, const Sector& sec
   impl.edges.Candidates(eye, sector_test, static_cast<float>(impl.options.max_distance_m),
                         min_angle, candidates);
   VisibleSet visible = SkylineFrom(position, sector);
-  workspace.last_leaf = 0;
   for (const std::uint32_t candidate : candidates) {
     const SceneEdge& edge = impl.edges.edges()[candidate];
     const Eigen::Vector3f a = edge.a - eye;
@@ -161,6 +160,13 @@ std::optional<double> Scene::Raycast(const Eigen::Vector3d& from,
       impl_->rays.Cast(from.cast<float>(), direction.normalized().cast<float>());
   if (!hit) return std::nullopt;
   return hit->distance;
+}
+
+std::uint32_t Scene::SurfaceAlong(const Eigen::Vector3d& from,
+                                  const Eigen::Vector3d& direction) const {
+  const std::optional<RayHit> hit =
+      impl_->rays.Cast(from.cast<float>(), direction.normalized().cast<float>());
+  return hit ? hit->surface : kNoSurface;
 }
 
 const CityModel& Scene::model() const { return impl_->model; }

@@ -101,6 +101,9 @@ class Scene {
   // Distance [m] to the first hit of a ray, nullopt: sky.
   std::optional<double> Raycast(const Eigen::Vector3d& from, const Eigen::Vector3d& direction) const;
 
+  // Surface hit first by a ray; kTerrainSurface, or kNoSurface for the sky.
+  std::uint32_t SurfaceAlong(const Eigen::Vector3d& from, const Eigen::Vector3d& direction) const;
+
   const CityModel& model() const;
   const ProjectionOptions& options() const;
   // The edge of VisiblePiece::edge.

@@ -3,6 +3,10 @@
 
 #include <cstdint>
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 namespace ridgeline::simd {
 
 // Four floats side by side: GCC's and Clang's vector extension, on any processor.
@@ -16,6 +20,16 @@ struct Vec3x4 {
 inline Float4 Splat(float value) { return Float4{value, value, value, value}; }
 inline Float4 Max(Float4 a, Float4 b) { return a > b ? a : b; }
 inline Float4 Min(Float4 a, Float4 b) { return a < b ? a : b; }
+
+// Bit k is set where comparison k holds.
+inline unsigned Bits(Int4 comparison) {
+#ifdef __SSE2__
+  return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(comparison)));
+#else
+  return static_cast<unsigned>((comparison[0] & 1) | (comparison[1] & 2) | (comparison[2] & 4) |
+                               (comparison[3] & 8));
+#endif
+}
 
 inline Float4 Dot(const Vec3x4& a, const Vec3x4& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 

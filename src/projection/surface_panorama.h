@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "projection/scene.h"
+
+namespace ridgeline {
+
+// The surface seen in every direction of a sector from one position, on a grid of azimuth (clockwise
+// from north) and elevation. Orientation-free, like VisibleSet.
+struct SurfacePanorama {
+  double first_azimuth = 0.0;    // of column 0 [rad]
+  double first_elevation = 0.0;  // of row 0 [rad]
+  double step = 0.0;             // between columns and between rows [rad]
+  int columns = 0;
+  int rows = 0;
+  std::vector<std::uint32_t> surfaces;  // row-major; kNoSurface: sky
+
+  // Surface in a direction (east, north, height), by the nearest ray; nullptr outside the grid.
+  const std::uint32_t* Find(const Eigen::Vector3f& direction) const;
+};
+
+struct PanoramaRange {
+  Sector sector;
+  double lowest_elevation = 0.0;  // [rad]
+  double highest_elevation = 0.0;
+  double step = 0.02;  // [rad]
+};
+
+SurfacePanorama SurfacesFrom(const Scene& scene,
+                             const Eigen::Vector3d& position,
+                             const PanoramaRange& range);
+
+}  // namespace ridgeline

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "base/options.h"
+#include "camera/intrinsics.h"
+#include "city/city_model.h"
+#include "lines/line_segment.h"
+#include "projection/surface_panorama.h"
+
+namespace ridgeline {
+
+struct FacadeDirectionOptions {
+  // Share of the lines on a wall that run along its courses or its corners.
+  double aligned_share = 0.6;
+  // Standard deviation of their directions in the picture [deg].
+  double sigma_deg = 2.0;
+
+  void Visit(OptionVisitor& v) {
+    v.Field("aligned_share", aligned_share);
+    v.Field("sigma_deg", sigma_deg);
+  }
+  void Validate() const;
+};
+
+// Explains the picture's lines by the surfaces that a pose puts behind them: windows, cornices and
+// joints of a wall run horizontally in its plane or vertically. Log likelihood ratio of the lines'
+// directions on model surfaces against the picture's own distribution of directions, weighted by
+// length. Needs no modelled edge near a line.
+class FacadeDirections {
+ public:
+  FacadeDirections(std::span<const LineSegment> segments,
+                   const PinholeCamera& camera,
+                   const FacadeDirectionOptions& options);
+
+  // Weight 1 is a line as long as the picture is wide.
+  float LogRatio(const SurfacePanorama& surfaces,
+                 const CityModel& model,
+                 const Eigen::Matrix3f& cam_from_world) const;
+
+ private:
+  struct Line {
+    Eigen::Vector3f ray;        // through its middle, camera axes, z = 1
+    Eigen::Vector2f direction;  // unit
+    float weight;
+    float background;  // density of its direction in this picture [1 / rad]
+  };
+  std::vector<Line> lines_;
+  float aligned_share_;
+  float sigma_rad_;
+};
+
+}  // namespace ridgeline

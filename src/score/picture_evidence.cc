@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "score/picture_evidence.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+#include <string>
+
+#include "base/error.h"
+#include "score/sky_score.h"
+
+namespace ridgeline {
+namespace {
+
+PinholeCamera WorkCamera(const PinholeCamera& camera, int work_size_px) {
+  const int longer = std::max(camera.width, camera.height);
+  return camera.Scaled(std::min(1.0, static_cast<double>(work_size_px) / longer));
+}
+
+cv::Mat Reduced(const cv::Mat& picture, const PinholeCamera& camera) {
+  cv::Mat reduced;
+  cv::resize(picture, reduced, cv::Size(camera.width, camera.height), 0.0, 0.0, cv::INTER_AREA);
+  return reduced;
+}
+
+std::vector<LineSegment> WorkSegments(const cv::Mat& reduced,
+                                      const PinholeCamera& work,
+                                      const PinholeCamera& full,
+                                      const LineDetectionOptions& options,
+                                      const std::optional<std::vector<LineSegment>>& given) {
+  if (!given) return DetectLines(reduced, options);
+  const Eigen::Vector2f scale(static_cast<float>(work.width) / full.width,
+                              static_cast<float>(work.height) / full.height);
+  std::vector<LineSegment> segments = *given;
+  for (LineSegment& segment : segments) {
+    segment.a = segment.a.cwiseProduct(scale);
+    segment.b = segment.b.cwiseProduct(scale);
+  }
+  return segments;
+}
+
+}  // namespace
+
+void EvidenceOptions::Validate() const {
+  if (work_size_px < 64) {
+    throw InputError("", "score.work_size_px", std::to_string(work_size_px), ">= 64");
+  }
+  if (!(surface_step_deg >= 0.05 && surface_step_deg <= 10.0)) {
+    throw InputError("", "score.surface_step_deg", std::to_string(surface_step_deg), "[0.05, 10]");
+  }
+  lines.Validate();
+  sky.Validate();
+  facades.Validate();
+}
+
+PictureEvidence::PictureEvidence(const cv::Mat& bgr,
+                                 const PinholeCamera& camera,
+                                 const LineDetectionOptions& lines,
+                                 const EvidenceOptions& options,
+                                 const std::optional<std::vector<LineSegment>>& given_lines)
+    : camera_(WorkCamera(camera, options.work_size_px)),
+      segments_(WorkSegments(Reduced(bgr, camera_), camera_, camera, lines, given_lines)),
+      field_(segments_, camera_.width, camera_.height),
+      lines_(field_, camera_, options.lines),
+      facades_(segments_, camera_, options.facades),
+      sky_(SkyLogOdds(Reduced(bgr, camera_), SkyLikelihoodOptions{}), options.sky),
+      sky_camera_(camera_.Scaled(static_cast<double>(sky_.columns()) / camera_.width)) {}
+
+CueVector PictureEvidence::Cues(const PositionView& view,
+                                const CityModel& model,
+                                const Pose& cam_from_local,
+                                Workspace& workspace) const {
+  const Eigen::Matrix3f rotation = cam_from_local.cam_from_world.toRotationMatrix().cast<float>();
+  CueVector cues{};
+  ProjectPieces(view.visible, camera_, cam_from_local, workspace.segments);
+  const auto edges = lines_.LogRatios(workspace.segments, view.kinds);
+  std::copy(edges.begin(), edges.end(), cues.begin());
+  workspace.skyline_rows.resize(sky_.columns());
+  SkylineRows(view.skyline, sky_camera_, rotation, workspace.skyline_rows);
+  cues[kSkyCue] = static_cast<float>(SkyLogRatio(sky_, workspace.skyline_rows));
+  cues[kFacadeCue] = facades_.LogRatio(view.surfaces, model, rotation);
+  return cues;
+}
+
+}  // namespace ridgeline
