@@ -9,6 +9,8 @@
 namespace ridgeline {
 namespace {
 
+constexpr int kMaxGridPoints = 10000000;
+
 template <typename T>
 void Require(bool good, const char* field, const T& found, const char* expected) {
   if (good) return;
@@ -31,6 +33,56 @@ void ValidateTpe(const TpeOptions& tpe) {
           "a value in (0, 1e6)");
 }
 
+void ValidateGp(const GpOptions& gp) {
+  Require(gp.startup_trials >= 2, "gp.startup_trials", gp.startup_trials, ">= 2");
+  Require(gp.max_points >= 20, "gp.max_points", gp.max_points, ">= 20");
+  Require(gp.refit_growth >= 0.0, "gp.refit_growth", gp.refit_growth, ">= 0");
+  Require(gp.candidates >= 1, "gp.candidates", gp.candidates, ">= 1");
+  Require(gp.climbs >= 0, "gp.climbs", gp.climbs, ">= 0");
+}
+
+void ValidatePopulations(const CmaEsOptions& cmaes, const DifferentialEvolutionOptions& de) {
+  Require(cmaes.population >= 0, "cmaes.population", cmaes.population, ">= 0");
+  Require(cmaes.sigma > 0.0 && cmaes.sigma <= 1.0,
+          "cmaes.sigma",
+          cmaes.sigma,
+          "a fraction of the range in (0, 1]");
+  Require(cmaes.ftol >= 0.0, "cmaes.ftol", cmaes.ftol, ">= 0");
+  Require(cmaes.xtol >= 0.0, "cmaes.xtol", cmaes.xtol, ">= 0");
+  Require(de.population >= 0, "de.population", de.population, ">= 0");
+  Require(de.weight > 0.0 && de.weight <= 1.0, "de.weight", de.weight, "a value in (0, 1]");
+  Require(de.crossover >= 0.0 && de.crossover <= 1.0,
+          "de.crossover",
+          de.crossover,
+          "a value in [0, 1]");
+  Require(de.variant >= 1 && de.variant <= 10, "de.variant", de.variant, "1 ... 10");
+  Require(de.ftol >= 0.0, "de.ftol", de.ftol, ">= 0");
+}
+
+void ValidateNelderMead(const NelderMeadOptions& options) {
+  Require(!options.steps.empty(), "nelder_mead.steps", "no steps", "at least one");
+  Require(!options.groups.empty(), "nelder_mead.groups", "no groups", "at least one, e.g. \"*\"");
+  for (const double step : options.steps) {
+    Require(step > 0.0 && step < 1.0,
+            "nelder_mead.steps",
+            step,
+            "fractions of the range in (0, 1)");
+  }
+  Require(options.convergence > 0.0 && options.convergence < 1.0,
+          "nelder_mead.convergence",
+          options.convergence,
+          "a value in (0, 1)");
+}
+
+void ValidateGrid(const GridOptions& grid) {
+  Require(grid.coarse_points >= 1 && grid.coarse_points <= kMaxGridPoints,
+          "grid.coarse_points",
+          grid.coarse_points,
+          "1 ... 10000000");
+  Require(grid.keep >= 1, "grid.keep", grid.keep, ">= 1");
+  Require(grid.finest > 0.0 && grid.finest < 1.0, "grid.finest", grid.finest, "a value in (0, 1)");
+}
+
 }  // namespace
 
 void TpeOptions::Visit(OptionVisitor& v) {
@@ -43,9 +95,49 @@ void TpeOptions::Visit(OptionVisitor& v) {
   v.Field("consider_endpoints", consider_endpoints);
 }
 
+void GpOptions::Visit(OptionVisitor& v) {
+  v.Field("startup_trials", startup_trials);
+  v.Field("max_points", max_points);
+  v.Field("refit_growth", refit_growth);
+  v.Field("candidates", candidates);
+  v.Field("climbs", climbs);
+}
+
+void CmaEsOptions::Visit(OptionVisitor& v) {
+  v.Field("population", population);
+  v.Field("sigma", sigma);
+  v.Field("ftol", ftol);
+  v.Field("xtol", xtol);
+}
+
+void DifferentialEvolutionOptions::Visit(OptionVisitor& v) {
+  v.Field("population", population);
+  v.Field("weight", weight);
+  v.Field("crossover", crossover);
+  v.Field("variant", variant);
+  v.Field("ftol", ftol);
+}
+
+void NelderMeadOptions::Visit(OptionVisitor& v) {
+  v.Field("steps", steps);
+  v.Field("groups", groups);
+  v.Field("convergence", convergence);
+}
+
+void GridOptions::Visit(OptionVisitor& v) {
+  v.Field("coarse_points", coarse_points);
+  v.Field("keep", keep);
+  v.Field("finest", finest);
+}
+
 void SamplerOptions::Visit(OptionVisitor& v) {
   v.Field("name", name);
   v.Group("tpe", [this](OptionVisitor& g) { tpe.Visit(g); });
+  v.Group("gp", [this](OptionVisitor& g) { gp.Visit(g); });
+  v.Group("cmaes", [this](OptionVisitor& g) { cmaes.Visit(g); });
+  v.Group("de", [this](OptionVisitor& g) { de.Visit(g); });
+  v.Group("nelder_mead", [this](OptionVisitor& g) { nelder_mead.Visit(g); });
+  v.Group("grid", [this](OptionVisitor& g) { grid.Visit(g); });
 }
 
 void SamplerOptions::Validate() const {
@@ -57,10 +149,22 @@ void SamplerOptions::Validate() const {
                      "a known sampler, e.g. \"" + NearestName(name, names) + "\"");
   }
   ValidateTpe(tpe);
+  ValidateGp(gp);
+  ValidatePopulations(cmaes, de);
+  ValidateNelderMead(nelder_mead);
+  ValidateGrid(grid);
 }
 
 const std::vector<std::string>& SamplerNames() {
-  static const std::vector<std::string> names = {"random", "tpe", "tpe_multivariate"};
+  static const std::vector<std::string> names = {"random",
+                                                 "sobol",
+                                                 "tpe",
+                                                 "tpe_multivariate",
+                                                 "gp",
+                                                 "cmaes",
+                                                 "de",
+                                                 "nelder_mead",
+                                                 "grid"};
   return names;
 }
 

@@ -27,11 +27,82 @@ struct TpeOptions {
   void Visit(OptionVisitor& v);
 };
 
+// Gaussian-process Bayesian optimization (see gp_strategy.h).
+struct GpOptions {
+  // Sobol points before the model is used, >= 2.
+  int startup_trials = 10;
+  // Trials the model holds at most, >= 20: the better half are the best ones, the rest the latest.
+  int max_points = 500;
+  // The hyper-parameters are estimated anew when the number of trials has grown by this fraction.
+  double refit_growth = 0.1;
+  // Points that the expected improvement is looked at before its best ones are climbed from.
+  int candidates = 192;
+  int climbs = 4;
+
+  void Visit(OptionVisitor& v);
+};
+
+// CMA-ES (see population.h).
+struct CmaEsOptions {
+  // Points per generation; 0: 4 + 3 ln(dimensions). Five at least.
+  int population = 0;
+  // First deviation as a fraction of the ranges.
+  double sigma = 0.25;
+  // Restart when the energies, or the coordinates (fractions of the ranges), differ by less.
+  double ftol = 1e-11;
+  double xtol = 1e-5;
+
+  void Visit(OptionVisitor& v);
+};
+
+// Differential evolution (see population.h).
+struct DifferentialEvolutionOptions {
+  // 0: 10 + 2 * dimensions. Five at least.
+  int population = 0;
+  double weight = 0.8;
+  double crossover = 0.9;
+  // pagmo's number of the strategy, 1 ... 10; 3 is rand-to-best/1/exp.
+  int variant = 3;
+  // Restart when the energies of a generation differ by less.
+  double ftol = 1e-11;
+
+  void Visit(OptionVisitor& v);
+};
+
+// Downhill simplex (see nelder_mead.h).
+struct NelderMeadOptions {
+  // Edges of the successive first simplices as fractions of the ranges, in (0, 1).
+  std::vector<double> steps = {0.25, 0.1, 0.04, 0.015, 0.005};
+  // Parameters that vary together, in turn, for each step: names with commas, or "*" for all.
+  std::vector<std::string> groups = {"*"};
+  // A simplex has converged when its extent is below this fraction of its first edge.
+  double convergence = 0.1;
+
+  void Visit(OptionVisitor& v);
+};
+
+// Dense coarse to fine (see grid_search.h).
+struct GridOptions {
+  // The coarse grid has at most this many points, and two per axis at least.
+  int coarse_points = 1000;
+  // Places refined after the coarse grid; half as many on each finer one.
+  int keep = 8;
+  // Ends when the spacing is below this fraction of the ranges.
+  double finest = 1e-4;
+
+  void Visit(OptionVisitor& v);
+};
+
 // Which sampler, and how it is set. Each sampler reads its own group only.
 struct SamplerOptions {
   // One of SamplerNames().
   std::string name = "tpe";
   TpeOptions tpe;
+  GpOptions gp;
+  CmaEsOptions cmaes;
+  DifferentialEvolutionOptions de;
+  NelderMeadOptions nelder_mead;
+  GridOptions grid;
 
   void Visit(OptionVisitor& v);
   // Throws InputError naming the field, e.g. "sampler.tpe.candidates".

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "optim/grid_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+
+namespace ridgeline {
+namespace {
+
+constexpr std::size_t kFullLattice = 4;
+constexpr std::size_t kCorners = 10;
+constexpr double kMostPoints = 1.1e7;
+
+struct Place {
+  UnitPoint point;
+  double energy = 0.0;
+};
+
+void RequireFewEnough(std::size_t per_axis, std::size_t d) {
+  if (std::pow(static_cast<double>(per_axis), static_cast<double>(d)) <= kMostPoints) return;
+  throw InputError("",
+                   "sampler.name",
+                   "\"grid\" with " + std::to_string(per_axis) + " points on each of " +
+                       std::to_string(d) + " axes",
+                   "another sampler, or a box with more admissible points");
+}
+
+std::vector<UnitPoint> CoarseGrid(std::size_t per_axis, std::size_t d) {
+  std::vector<UnitPoint> points;
+  std::vector<std::size_t> index(d, 0);
+  for (;;) {
+    UnitPoint point(d);
+    for (std::size_t k = 0; k < d; ++k) {
+      point[k] = (static_cast<double>(index[k]) + 0.5) / static_cast<double>(per_axis);
+    }
+    points.push_back(point);
+    std::size_t k = 0;
+    while (k < d && ++index[k] == per_axis) index[k++] = 0;
+    if (k == d) return points;
+  }
+}
+
+void Shuffle(std::vector<UnitPoint>& points, Random& random) {
+  for (std::size_t i = points.size(); i > 1; --i) std::swap(points[i - 1], points[random.Below(i)]);
+}
+
+// Offsets in {-1, 0, 1}^d, without zero.
+std::vector<std::vector<int>> Neighbourhood(std::size_t d) {
+  std::vector<std::vector<int>> offsets;
+  if (d <= kFullLattice) {
+    std::vector<int> offset(d, -1);
+    for (;;) {
+      if (std::any_of(offset.begin(), offset.end(), [](int o) { return o != 0; })) {
+        offsets.push_back(offset);
+      }
+      std::size_t k = 0;
+      while (k < d && ++offset[k] == 2) offset[k++] = -1;
+      if (k == d) return offsets;
+    }
+  }
+  for (std::size_t k = 0; k < d; ++k) {
+    for (const int side : {-1, 1}) {
+      offsets.emplace_back(d, 0);
+      offsets.back()[k] = side;
+    }
+  }
+  if (d > kCorners) return offsets;
+  for (std::size_t corner = 0; corner < (std::size_t{1} << d); ++corner) {
+    offsets.emplace_back(d);
+    for (std::size_t k = 0; k < d; ++k) offsets.back()[k] = (corner >> k & 1) != 0 ? 1 : -1;
+  }
+  return offsets;
+}
+
+bool Apart(const UnitPoint& a,
+           const UnitPoint& b,
+           const std::vector<bool>& periodic,
+           double distance) {
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    const double way = std::abs(a[k] - b[k]);
+    if ((periodic[k] ? std::min(way, 1.0 - way) : way) > distance) return true;
+  }
+  return false;
+}
+
+// The best places, none within `distance` of a better one.
+std::vector<Place> BestApart(std::vector<Place> places,
+                             std::size_t count,
+                             double distance,
+                             const std::vector<bool>& periodic) {
+  std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    return a.energy < b.energy;
+  });
+  std::vector<Place> kept;
+  for (const Place& place : places) {
+    if (kept.size() == count) break;
+    const bool apart = std::all_of(kept.begin(), kept.end(), [&](const Place& other) {
+      return Apart(place.point, other.point, periodic, distance);
+    });
+    if (apart && std::isfinite(place.energy)) kept.push_back(place);
+  }
+  return kept;
+}
+
+bool AnyFinite(const std::vector<Place>& places) {
+  return std::any_of(places.begin(), places.end(), [](const Place& place) {
+    return std::isfinite(place.energy);
+  });
+}
+
+void Append(const Batch& batch, std::vector<Place>& places) {
+  for (std::size_t i = 0; i < batch.points.size(); ++i) {
+    places.push_back({batch.points[i], batch.energies[i]});
+  }
+}
+
+}  // namespace
+
+SearchRoutine GridSearch(StrategyContext context, GridOptions options) {
+  static const std::uint64_t kStage = HashText("optim.grid");
+  Random random(context.seed, kStage);
+  const double share = 1.0 / static_cast<double>(context.dimension);
+  std::size_t per_axis = static_cast<std::size_t>(
+      std::max(2.0, std::floor(std::pow(options.coarse_points, share) + 1e-9)));
+  std::vector<Place> places;
+  for (;; per_axis *= 2) {
+    RequireFewEnough(per_axis, context.dimension);
+    Batch coarse;
+    coarse.points = CoarseGrid(per_axis, context.dimension);
+    Shuffle(coarse.points, random);
+    co_yield coarse;
+    Append(coarse, places);
+    if (AnyFinite(places)) break;
+  }
+
+  const std::vector<std::vector<int>> offsets = Neighbourhood(context.dimension);
+  double spacing = 1.0 / static_cast<double>(per_axis);
+  std::size_t keep = static_cast<std::size_t>(options.keep);
+  while (spacing > options.finest) {
+    const std::vector<Place> centers = BestApart(places, keep, 1.01 * spacing, context.periodic);
+    if (centers.empty()) co_return;
+    spacing /= 3.0;
+    keep = std::max<std::size_t>(1, keep / 2);
+    places = centers;
+    for (const Place& center : centers) {
+      Batch around;
+      for (const std::vector<int>& offset : offsets) {
+        UnitPoint point = center.point;
+        for (std::size_t k = 0; k < point.size(); ++k) point[k] += spacing * offset[k];
+        around.points.push_back(FoldIntoCube(point, context.periodic));
+      }
+      co_yield around;
+      Append(around, places);
+    }
+  }
+}
+
+}  // namespace ridgeline
