@@ -65,62 +65,18 @@ std::int32_t Flatten(const RawNode& raw, BoxTree& tree) {
   return index;
 }
 
-using Corners = std::array<Eigen::Vector3f, 3>;
+}  // namespace
 
-void SetBounds(const Eigen::AlignedBox3f& box, RTCBounds& bounds) {
-  bounds.lower_x = box.min().x();
-  bounds.lower_y = box.min().y();
-  bounds.lower_z = box.min().z();
-  bounds.upper_x = box.max().x();
-  bounds.upper_y = box.max().y();
-  bounds.upper_z = box.max().z();
-}
-
-// Boxes of the parts of a triangle below and above a plane across an axis, within its present box.
-void SplitTriangle(const RTCBuildPrimitive* primitive,
-                   unsigned axis,
-                   float position,
-                   RTCBounds* left_bounds,
-                   RTCBounds* right_bounds,
-                   void* user) {
-  const Corners& corners = (*static_cast<const std::vector<Corners>*>(user))[primitive->primID];
-  const RTCBuildPrimitive& p = *primitive;
-  const Eigen::AlignedBox3f present(Eigen::Vector3f(p.lower_x, p.lower_y, p.lower_z),
-                                    Eigen::Vector3f(p.upper_x, p.upper_y, p.upper_z));
-  Eigen::AlignedBox3f left, right;
-  for (int k = 0; k < 3; ++k) {
-    const Eigen::Vector3f& a = corners[k];
-    const Eigen::Vector3f& b = corners[(k + 1) % 3];
-    if (a[axis] <= position) left.extend(a);
-    if (a[axis] >= position) right.extend(a);
-    if ((a[axis] < position) == (b[axis] < position)) continue;
-    Eigen::Vector3f cut = a + (position - a[axis]) / (b[axis] - a[axis]) * (b - a);
-    cut[axis] = position;
-    left.extend(cut);
-    right.extend(cut);
-  }
-  // Rounding of the cuts.
-  const Eigen::Vector3f margin = Eigen::Vector3f::Constant(1e-3f);
-  left = Eigen::AlignedBox3f(left.min() - margin, left.max() + margin).intersection(present);
-  right = Eigen::AlignedBox3f(right.min() - margin, right.max() + margin).intersection(present);
-  SetBounds(left, *left_bounds);
-  SetBounds(right, *right_bounds);
-}
-
-BoxTree Build(const std::vector<Eigen::AlignedBox3f>& boxes,
-              int max_leaf_size,
-              const std::vector<Corners>* triangles) {
+BoxTree BuildBoxTree(const std::vector<Eigen::AlignedBox3f>& boxes, int max_leaf_size) {
   BoxTree tree;
   if (boxes.empty()) return tree;
-  std::vector<RTCBuildPrimitive> primitives;
-  // Splits need room for more.
-  primitives.reserve(triangles == nullptr ? boxes.size() : 2 * boxes.size());
+  std::vector<RTCBuildPrimitive> primitives(boxes.size());
   Eigen::AlignedBox3f all;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const Eigen::Vector3f& lower = boxes[i].min();
     const Eigen::Vector3f& upper = boxes[i].max();
-    primitives.push_back({lower.x(), lower.y(), lower.z(), 0,
-                          upper.x(), upper.y(), upper.z(), static_cast<unsigned>(i)});
+    primitives[i] = {lower.x(), lower.y(), lower.z(), 0,
+                     upper.x(), upper.y(), upper.z(), static_cast<unsigned>(i)};
     all.extend(boxes[i]);
   }
   // One build thread: the tree, and so every tie in its use, is the same in each run.
@@ -140,11 +96,6 @@ BoxTree Build(const std::vector<Eigen::AlignedBox3f>& boxes,
   arguments.setNodeChildren = SetChildren;
   arguments.setNodeBounds = SetBounds;
   arguments.createLeaf = CreateLeaf;
-  if (triangles != nullptr) {
-    arguments.buildQuality = RTC_BUILD_QUALITY_HIGH;
-    arguments.splitPrimitive = SplitTriangle;
-    arguments.userPtr = const_cast<std::vector<Corners>*>(triangles);
-  }
   const auto* const root = static_cast<const RawNode*>(rtcBuildBVH(&arguments));
   if (root != nullptr && root->is_leaf) {
     tree.nodes.emplace_back();
@@ -157,21 +108,6 @@ BoxTree Build(const std::vector<Eigen::AlignedBox3f>& boxes,
   rtcReleaseDevice(device);
   if (root == nullptr) throw std::runtime_error("the bounding volume hierarchy cannot be built");
   return tree;
-}
-
-}  // namespace
-
-BoxTree BuildBoxTree(const std::vector<Eigen::AlignedBox3f>& boxes, int max_leaf_size) {
-  return Build(boxes, max_leaf_size, nullptr);
-}
-
-BoxTree BuildTriangleTree(const std::vector<std::array<Eigen::Vector3f, 3>>& triangles,
-                          int max_leaf_size) {
-  std::vector<Eigen::AlignedBox3f> boxes(triangles.size());
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    for (const Eigen::Vector3f& corner : triangles[i]) boxes[i].extend(corner);
-  }
-  return Build(boxes, max_leaf_size, &triangles);
 }
 
 }  // namespace ridgeline

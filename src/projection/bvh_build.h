@@ -29,10 +29,4 @@ struct BoxTree {
 // Surface area heuristic (Embree's builder). Empty input gives no nodes.
 BoxTree BuildBoxTree(const std::vector<Eigen::AlignedBox3f>& boxes, int max_leaf_size);
 
-// The same over triangles, whose boxes are split where that pays: the box of a wall that runs
-// diagonally would fill a whole block. A triangle can be in several leaves.
-// Source: Stich, Friedrich & Dietrich, "Spatial splits in bounding volume hierarchies", 2009.
-BoxTree BuildTriangleTree(const std::vector<std::array<Eigen::Vector3f, 3>>& triangles,
-                          int max_leaf_size);
-
 }  // namespace ridgeline

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "projection/bvh_build.h"
 #include "projection/simd4.h"
@@ -135,6 +136,8 @@ void Shadows(const Leaf& leaf,
   // Behind the plane, as seen from the eye.
   const Float4 depth = Abs(height) + leaf.tolerance;
   Clip(sign * Dot(leaf.normal, a) - depth, sign * Dot(leaf.normal, b) - depth, first, last);
+  // Most triangles met are the segment's own and its neighbours: not in front of it.
+  if (simd::Bits(first < last) == 0) return;
   // Inside the three planes through the eye and the sides.
   const Vec3x4 ab = Cross(va, vb);
   const Vec3x4 bc = Cross(vb, vc);
@@ -180,9 +183,43 @@ bool HasGap(const std::vector<Interval>& hidden, float min_part) {
   return 1.0f - start >= min_part;
 }
 
+// A rotation about the vertical axis.
+struct Turn {
+  float cosine = 1.0f;
+  float sine = 0.0f;
+
+  Eigen::Vector3f operator*(const Eigen::Vector3f& p) const {
+    return {cosine * p.x() - sine * p.y(), sine * p.x() + cosine * p.y(), p.z()};
+  }
+};
+
+// Boxes fit walls that run along the axes. Of 18 rotations the one with the smallest boxes: streets
+// are often at right angles, seldom to the north.
+Turn TurnToAxes(const std::vector<OccluderTriangle>& triangles) {
+  Turn best;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 18; ++k) {
+    const double angle = k * 5.0 * std::numbers::pi / 180.0;
+    const Turn turn{static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
+    double area = 0.0;
+    for (const OccluderTriangle& t : triangles) {
+      Eigen::AlignedBox3f box;
+      box.extend(turn * t.a).extend(turn * t.b).extend(turn * t.c);
+      const Eigen::Vector3f size = box.sizes();
+      area += size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
+    }
+    if (area < least) {
+      least = area;
+      best = turn;
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 struct OccluderBvh::Impl {
+  Turn turn;
   std::vector<Node> nodes;
   std::vector<Leaf> leaves;
 };
@@ -232,12 +269,17 @@ Node MakeNode(const BoxTree::Node& source) {
 
 }  // namespace
 
-OccluderBvh::OccluderBvh(const std::vector<OccluderTriangle>& triangles)
+OccluderBvh::OccluderBvh(std::vector<OccluderTriangle> triangles)
     : impl_(std::make_unique<Impl>()) {
-  std::vector<std::array<Eigen::Vector3f, 3>> corners;
-  corners.reserve(triangles.size());
-  for (const OccluderTriangle& t : triangles) corners.push_back({t.a, t.b, t.c});
-  const BoxTree tree = BuildTriangleTree(corners, 4);
+  impl_->turn = TurnToAxes(triangles);
+  for (OccluderTriangle& t : triangles) {
+    t = {impl_->turn * t.a, impl_->turn * t.b, impl_->turn * t.c, t.tolerance_m};
+  }
+  std::vector<Eigen::AlignedBox3f> boxes(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    boxes[i].extend(triangles[i].a).extend(triangles[i].b).extend(triangles[i].c);
+  }
+  const BoxTree tree = BuildBoxTree(boxes, 4);
   impl_->nodes.reserve(tree.nodes.size());
   for (const BoxTree::Node& node : tree.nodes) impl_->nodes.push_back(MakeNode(node));
   impl_->leaves.reserve(tree.leaves.size());
@@ -252,25 +294,22 @@ std::size_t OccluderBvh::memory_bytes() const {
   return impl_->nodes.size() * sizeof(Node) + impl_->leaves.size() * sizeof(Leaf);
 }
 
-void OccluderBvh::VisibleParts(const Eigen::Vector3f& eye,
-                               const Eigen::Vector3f& a,
-                               const Eigen::Vector3f& b,
-                               float min_part,
-                               Workspace& workspace,
-                               std::vector<Interval>& visible) const {
-  visible.clear();
-  std::vector<Interval>& hidden = workspace.hidden;
-  hidden.clear();
+bool OccluderBvh::Hide(const Eigen::Vector3f& eye,
+                       const Eigen::Vector3f& a_from_eye,
+                       const Eigen::Vector3f& b_from_eye,
+                       float min_part,
+                       std::vector<Interval>& hidden,
+                       Hints& hints) const {
+  const Eigen::Vector3f a = impl_->turn * a_from_eye;
+  const Eigen::Vector3f b = impl_->turn * b_from_eye;
   const Eigen::Vector3f normal = a.cross(b);
-  if (impl_->nodes.empty() || normal.squaredNorm() == 0.0f) {
-    if (impl_->nodes.empty()) visible.push_back({0.0f, 1.0f});
-    return;
-  }
-  const Vec3x4 eye4 = Splat3(eye);
+  if (normal.squaredNorm() == 0.0f) return false;  // seen from its end: a point
+  if (impl_->nodes.empty()) return true;
+  const Vec3x4 eye4 = Splat3(impl_->turn * eye);
   const Vec3x4 a4 = Splat3(a);
   const Vec3x4 b4 = Splat3(b);
   const Vec3x4 plane4 = Splat3(normal);
-  const std::size_t range = AzimuthRange(a + b, workspace.leaf_at_azimuth.size());
+  std::uint32_t& hint = hints[AzimuthRange(a + b, hints.size())];
 
   // Returns false when nothing is left of the segment.
   const auto cast_leaf = [&](std::uint32_t index) {
@@ -285,11 +324,11 @@ void OccluderBvh::VisibleParts(const Eigen::Vector3f& eye,
       AddHidden({first[k], last[k]}, hidden);
     }
     if (HasGap(hidden, min_part)) return true;
-    workspace.leaf_at_azimuth[range] = index;
+    hint = index;
     return false;
   };
 
-  if (!cast_leaf(workspace.leaf_at_azimuth[range])) return;
+  if (hint < impl_->leaves.size() && !cast_leaf(hint)) return false;
 
   const Wedge wedge(a, b, normal.normalized());
   struct Entry {
@@ -302,7 +341,7 @@ void OccluderBvh::VisibleParts(const Eigen::Vector3f& eye,
   while (size > 0) {
     const std::int32_t child = stack[--size].child;
     if (child < 0) {
-      if (!cast_leaf(static_cast<std::uint32_t>(~child))) return;
+      if (!cast_leaf(static_cast<std::uint32_t>(~child))) return false;
       continue;
     }
     const Node& node = impl_->nodes[child];
@@ -326,12 +365,7 @@ void OccluderBvh::VisibleParts(const Eigen::Vector3f& eye,
       stack[place] = entry;
     }
   }
-  float start = 0.0f;
-  for (const Interval& part : hidden) {
-    if (part.first - start >= min_part) visible.push_back({start, part.first});
-    start = part.last;
-  }
-  if (1.0f - start >= min_part) visible.push_back({start, 1.0f});
+  return true;
 }
 
 }  // namespace ridgeline

@@ -28,24 +28,22 @@ struct Interval {
 // of the segment: exact to rounding, no gap is missed, and a hidden segment ends early.
 class OccluderBvh {
  public:
-  // Working memory of a query, reused between queries of one thread.
-  struct Workspace {
-    std::vector<Interval> hidden;  // disjoint, in order
-    // Per range of azimuths the leaf that completed the last hidden segment there: tried first.
-    std::array<std::uint32_t, 256> leaf_at_azimuth{};
-  };
+  // Per range of azimuths the leaf that completed the last hidden segment there: tried first. It
+  // saves time and changes no result, so that any state (one per thread) will do.
+  using Hints = std::array<std::uint32_t, 256>;
 
-  explicit OccluderBvh(const std::vector<OccluderTriangle>& triangles);
+  explicit OccluderBvh(std::vector<OccluderTriangle> triangles);
   ~OccluderBvh();
 
-  // Visible parts of the segment a-b (relative to the eye) of at least `min_part` of its length.
-  // Parts that meet within float rounding are joined.
-  void VisibleParts(const Eigen::Vector3f& eye,
-                    const Eigen::Vector3f& a_from_eye,
-                    const Eigen::Vector3f& b_from_eye,
-                    float min_part,
-                    Workspace& workspace,
-                    std::vector<Interval>& visible) const;
+  // Adds the hidden parts of the segment a-b (relative to the eye) to `hidden`, which stays disjoint
+  // and in order; parts that meet within float rounding are joined. Stops early and returns false
+  // once no gap of at least `min_part` of the segment's length is left.
+  bool Hide(const Eigen::Vector3f& eye,
+            const Eigen::Vector3f& a_from_eye,
+            const Eigen::Vector3f& b_from_eye,
+            float min_part,
+            std::vector<Interval>& hidden,
+            Hints& hints) const;
 
   std::size_t memory_bytes() const;
 

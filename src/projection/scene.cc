@@ -24,22 +24,28 @@ void Require(bool ok, const std::string& field, double value, const std::string&
   throw InputError("", "projection." + field, std::to_string(value), expected);
 }
 
-std::vector<OccluderTriangle> Occluders(const CityModel& model,
-                                        const TerrainMesh& terrain,
-                                        const ProjectionOptions& options) {
+std::vector<OccluderTriangle> ModelOccluders(const CityModel& model, double tolerance_m) {
   std::vector<OccluderTriangle> occluders;
-  occluders.reserve(model.triangles.size() + terrain.triangles.size());
+  occluders.reserve(model.triangles.size());
   const auto vertex = [&](std::uint32_t i) -> Eigen::Vector3f {
     return model.vertices[i].cast<float>();
   };
   for (const Triangle& triangle : model.triangles) {
     const auto& v = triangle.vertices;
-    occluders.push_back({vertex(v[0]), vertex(v[1]), vertex(v[2]),
-                         static_cast<float>(options.surface_tolerance_m)});
+    occluders.push_back(
+        {vertex(v[0]), vertex(v[1]), vertex(v[2]), static_cast<float>(tolerance_m)});
   }
+  return occluders;
+}
+
+std::vector<OccluderTriangle> TerrainOccluders(const TerrainMesh& terrain, double lowered_by_m) {
+  std::vector<OccluderTriangle> occluders;
+  occluders.reserve(terrain.triangles.size());
+  const auto vertex = [&](std::uint32_t i) -> Eigen::Vector3f {
+    return terrain.vertices[i] - Eigen::Vector3f(0.0f, 0.0f, static_cast<float>(lowered_by_m));
+  };
   for (const auto& v : terrain.triangles) {
-    occluders.push_back({terrain.vertices[v[0]], terrain.vertices[v[1]], terrain.vertices[v[2]],
-                         static_cast<float>(options.terrain_tolerance_m)});
+    occluders.push_back({vertex(v[0]), vertex(v[1]), vertex(v[2]), 0.0f});
   }
   return occluders;
 }
@@ -52,6 +58,19 @@ float DistanceToSegment(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
   const Eigen::Vector3f along = b - a;
   const float t = std::clamp(-a.dot(along) / along.squaredNorm(), 0.0f, 1.0f);
   return (a + t * along).norm();
+}
+
+// Memory of the queries of one thread.
+struct Workspace {
+  std::vector<std::uint32_t> candidates;
+  std::vector<Interval> hidden;
+  OccluderBvh::Hints building_hints{};
+  OccluderBvh::Hints ground_hints{};
+};
+
+Workspace& ThreadWorkspace() {
+  thread_local Workspace workspace;
+  return workspace;
 }
 
 }  // namespace
@@ -71,7 +90,8 @@ struct Scene::Impl {
        const ProjectionOptions& projection)
       : model(city),
         options(projection),
-        occluders(Occluders(city, terrain, projection)),
+        buildings(ModelOccluders(city, projection.surface_tolerance_m)),
+        ground(TerrainOccluders(terrain, projection.terrain_tolerance_m)),
         rays(city, terrain),
         edges(city, mesh),
         horizon(city, mesh, terrain, projection.skyline_step_mrad * kMilli),
@@ -84,7 +104,8 @@ struct Scene::Impl {
 
   const CityModel& model;
   const ProjectionOptions options;
-  const OccluderBvh occluders;
+  const OccluderBvh buildings;
+  const OccluderBvh ground;
   const RayScene rays;
   const EdgeSet edges;
   const Horizon horizon;
@@ -107,23 +128,30 @@ VisibleSet Scene::VisibleFrom(const Eigen::Vector3d& position, const Sector& sec
   const Eigen::Vector3f eye = position.cast<float>();
   const auto min_angle = static_cast<float>(impl.options.min_piece_mrad * kMilli);
 
-  thread_local std::vector<std::uint32_t> candidates;
-  thread_local std::vector<Interval> parts;
-  thread_local OccluderBvh::Workspace workspace;
+  Workspace& workspace = ThreadWorkspace();
   impl.edges.Candidates(eye, sector_test, static_cast<float>(impl.options.max_distance_m),
-                        min_angle, candidates);
+                        min_angle, workspace.candidates);
   VisibleSet visible = SkylineFrom(position, sector);
-  for (const std::uint32_t candidate : candidates) {
+  for (const std::uint32_t candidate : workspace.candidates) {
     const SceneEdge& edge = impl.edges.edges()[candidate];
     const Eigen::Vector3f a = edge.a - eye;
     const Eigen::Vector3f b = edge.b - eye;
     // No part shorter than this can reach the least angle.
     const float min_part = min_angle * DistanceToSegment(a, b) / edge.length;
-    impl.occluders.VisibleParts(eye, a, b, min_part, workspace, parts);
-    for (const Interval& part : parts) {
-      const Eigen::Vector3f start = a + part.first * (b - a);
-      const Eigen::Vector3f end = a + part.last * (b - a);
-      if (AngleBetween(start, end) < min_angle) continue;
+    std::vector<Interval>& hidden = workspace.hidden;
+    hidden.clear();
+    if (!impl.buildings.Hide(eye, a, b, min_part, hidden, workspace.building_hints) ||
+        !impl.ground.Hide(eye, a, b, min_part, hidden, workspace.ground_hints)) {
+      continue;
+    }
+    hidden.push_back({1.0f, 1.0f});
+    float first = 0.0f;
+    for (const Interval& part : hidden) {
+      const Eigen::Vector3f start = a + first * (b - a);
+      const Eigen::Vector3f end = a + part.first * (b - a);
+      const bool is_gap = part.first > first;
+      first = part.last;
+      if (!is_gap || AngleBetween(start, end) < min_angle) continue;
       const auto [left, right] =
           impl.beside.Find(eye, edge, impl.Feature(edge.index), start, end);
       visible.pieces.push_back({eye + start, eye + end, edge.index, left, right});
@@ -174,7 +202,7 @@ const ProjectionOptions& Scene::options() const { return impl_->options; }
 const FeatureEdge& Scene::edge(std::uint32_t index) const { return impl_->Feature(index); }
 std::size_t Scene::edge_count() const { return impl_->edges.edges().size(); }
 std::size_t Scene::memory_bytes() const {
-  return impl_->occluders.memory_bytes() + impl_->rays.memory_bytes();
+  return impl_->buildings.memory_bytes() + impl_->ground.memory_bytes() + impl_->rays.memory_bytes();
 }
 
 }  // namespace ridgeline

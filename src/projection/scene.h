@@ -60,7 +60,7 @@ struct ProjectionOptions {
   // An edge is hidden by a model face only where it lies deeper than this behind the face's plane
   // [m]: it does not hide behind its own faces, nor behind walls that should be coplanar.
   double surface_tolerance_m = 0.03;
-  // The same for the terrain: the ground lines of walls are that uncertain.
+  // The terrain hides edges as if it lay this much lower [m]: ground lines are that uncertain.
   double terrain_tolerance_m = 0.3;
   // Largest height error of the triangles that stand for the terrain model [m].
   double terrain_error_m = 0.1;
