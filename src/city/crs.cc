@@ -173,6 +173,7 @@ std::optional<Crs> ParseCrs(std::string_view name) {
   } else if (const std::size_t plus = name.find('+'); plus != std::string_view::npos) {
     first = name.substr(0, plus);
     second = name.substr(plus + 1);
+    if (second.empty()) return std::nullopt;
   }
   // ".../def/crs/EPSG/0/25832", ".../epsg.xml#25832", "urn:...:EPSG::25832", "EPSG:25832", "25832".
   const int code = TrailingCode(first);
