@@ -44,9 +44,9 @@ void Suggest(benchmark::State& state, const char* name) {
       }
     }
   }
-  state.counters["per_suggestion"] = benchmark::Counter(
-      10.0 * static_cast<double>(state.iterations()),
-      benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["per_suggestion"] =
+      benchmark::Counter(10.0 * static_cast<double>(state.iterations()),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
 BENCHMARK_CAPTURE(Suggest, tpe, "tpe")->Arg(200)->Arg(1000);

@@ -73,10 +73,7 @@ class BatchStrategy final : public Strategy {
 
   std::optional<UnitPoint> Propose(std::int64_t id) override;
   void Reject(std::int64_t id) override;
-  void Observe(std::int64_t id,
-               const UnitPoint& point,
-               double energy,
-               TrialState state) override;
+  void Observe(std::int64_t id, const UnitPoint& point, double energy, TrialState state) override;
   bool Ended() const override { return ended_; }
 
  private:

@@ -10,9 +10,7 @@ namespace {
 // Where erfc is still a normal number; beyond, the series of Mills' ratio is exact enough.
 constexpr double kSeriesFrom = 25.0;
 
-double Density(double z) {
-  return std::exp(-0.5 * z * z) / std::sqrt(2.0 * std::numbers::pi);
-}
+double Density(double z) { return std::exp(-0.5 * z * z) / std::sqrt(2.0 * std::numbers::pi); }
 
 double Distribution(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
@@ -39,14 +37,15 @@ LogImprovement LogExpectedImprovement(double best, double mean, double deviation
       mills = Distribution(z) / Density(z);
       rest = 1.0 - t * mills;
     } else {
-      rest = s * (1.0 - s * (3.0 - s * (15.0 - 105.0 * s)));
+      rest = s * (1 - s * (3 - s * (15 - s * (105 - s * (945 - s * (10395 - s * 135135))))));
       mills = (1.0 - rest) / t;
     }
     log_h = -0.5 * z * z - 0.5 * std::log(2.0 * std::numbers::pi) + std::log(rest);
     density_over_h = 1.0 / rest;
     distribution_over_h = mills / rest;
   }
-  return {std::log(deviation) + log_h, -distribution_over_h / deviation, density_over_h / deviation};
+  return {
+      std::log(deviation) + log_h, -distribution_over_h / deviation, density_over_h / deviation};
 }
 
 }  // namespace ridgeline

@@ -77,9 +77,8 @@ void GaussianProcess::Reset(const MatrixXd& points, const GpHyper& hyper) {
   for (Index j = 0; j < n; ++j) {
     for (Index i = j; i < n; ++i) {
       factor_(i, j) =
-          signal_ *
-          Matern(SquaredDistance(
-              points_.col(i).data(), points_.col(j).data(), inverse_lengths_, periodic_));
+          signal_ * Matern(SquaredDistance(
+                        points_.col(i).data(), points_.col(j).data(), inverse_lengths_, periodic_));
     }
     factor_(j, j) += noise_;
   }
@@ -99,8 +98,7 @@ void GaussianProcess::Append(const VectorXd& point) {
   factor_.topLeftCorner(n, n).triangularView<Eigen::Lower>().solveInPlace(row);
   points_.col(n) = point;
   factor_.row(n).head(n) = row.transpose();
-  factor_(n, n) =
-      std::sqrt(std::max(kSmallestVariance, signal_ + noise_ - row.squaredNorm()));
+  factor_(n, n) = std::sqrt(std::max(kSmallestVariance, signal_ + noise_ - row.squaredNorm()));
   ++count_;
 }
 
@@ -130,8 +128,7 @@ GaussianProcess::Prediction GaussianProcess::Predict(const VectorXd& point,
   for (Index i = 0; i < n; ++i) {
     const double* at = points_.col(i).data();
     const double slope =
-        2.0 * signal_ *
-        MaternSlope(SquaredDistance(at, point.data(), inverse_lengths_, periodic_));
+        2.0 * signal_ * MaternSlope(SquaredDistance(at, point.data(), inverse_lengths_, periodic_));
     for (Index d = 0; d < point.size(); ++d) {
       const Way way = WayBetween(at[d], point[d], periodic_[d]);
       const double change =
@@ -151,8 +148,7 @@ std::vector<GaussianProcess::Prediction> GaussianProcess::PredictAll(const Matri
   factor_.topLeftCorner(n, n).triangularView<Eigen::Lower>().solveInPlace(covariances);
   std::vector<Prediction> predictions(points.cols());
   for (Index j = 0; j < points.cols(); ++j) {
-    const double variance =
-        std::max(kSmallestVariance, signal_ - covariances.col(j).squaredNorm());
+    const double variance = std::max(kSmallestVariance, signal_ - covariances.col(j).squaredNorm());
     predictions[j] = {means[j], std::sqrt(variance)};
   }
   return predictions;

@@ -85,10 +85,7 @@ std::optional<UnitPoint> GpStrategy::Propose(std::int64_t id) {
 
 void GpStrategy::Reject(std::int64_t) { last_point_.clear(); }
 
-void GpStrategy::Observe(std::int64_t id,
-                         const UnitPoint& point,
-                         double energy,
-                         TrialState state) {
+void GpStrategy::Observe(std::int64_t id, const UnitPoint& point, double energy, TrialState state) {
   if (!last_point_.empty()) entries_.push_back({last_id_, last_point_, 0.0, TrialState::kAsked});
   last_point_.clear();
   const auto it = std::find_if(
@@ -280,8 +277,7 @@ std::vector<UnitPoint> GpStrategy::RankCandidates() {
   bfgs.max_iterations = 15;
   bfgs.tolerance = 1e-4;
   std::vector<BoxBfgsResult> tops;
-  const std::size_t climbs =
-      std::min(order.size(), static_cast<std::size_t>(options_.climbs));
+  const std::size_t climbs = std::min(order.size(), static_cast<std::size_t>(options_.climbs));
   for (std::size_t i = 0; i < climbs; ++i) {
     tops.push_back(MinimizeInBox(negative, candidates.col(order[i]), lower, upper, bfgs));
   }

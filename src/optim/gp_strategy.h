@@ -24,10 +24,7 @@ class GpStrategy final : public Strategy {
 
   std::optional<UnitPoint> Propose(std::int64_t id) override;
   void Reject(std::int64_t id) override;
-  void Observe(std::int64_t id,
-               const UnitPoint& point,
-               double energy,
-               TrialState state) override;
+  void Observe(std::int64_t id, const UnitPoint& point, double energy, TrialState state) override;
 
  private:
   struct Entry {

@@ -106,9 +106,8 @@ std::vector<Place> BestApart(std::vector<Place> places,
 }
 
 bool AnyFinite(const std::vector<Place>& places) {
-  return std::any_of(places.begin(), places.end(), [](const Place& place) {
-    return std::isfinite(place.energy);
-  });
+  return std::any_of(
+      places.begin(), places.end(), [](const Place& place) { return std::isfinite(place.energy); });
 }
 
 void Append(const Batch& batch, std::vector<Place>& places) {

@@ -38,7 +38,9 @@ __attribute__((always_inline)) inline double ExpMinus(double t) {
   return series * std::bit_cast<double>((std::uint64_t{1023} - n) << 52);
 }
 
-__attribute__((always_inline)) inline double Sum(const double* squares, const double* weights, std::size_t count) {
+__attribute__((always_inline)) inline double Sum(const double* squares,
+                                                 const double* weights,
+                                                 std::size_t count) {
   std::array<double, kBlock> sums = {};
   for (std::size_t begin = 0; begin < count; begin += kBlock) {
     const std::size_t size = std::min(kBlock, count - begin);

@@ -54,9 +54,9 @@ std::vector<double> UnsortedNeighbourSigmas(const std::vector<double>& points,
   }
   // The prior's centre stands between the points, behind its equals.
   const std::size_t prior =
-      std::partition_point(order.begin(), order.end(), [&](std::size_t i) {
-        return points[i] <= 0.5;
-      }) - order.begin();
+      std::partition_point(
+          order.begin(), order.end(), [&](std::size_t i) { return points[i] <= 0.5; }) -
+      order.begin();
   std::vector<double> sorted;
   sorted.reserve(points.size() + 1);
   for (const std::size_t i : order) sorted.push_back(points[i]);

@@ -63,10 +63,8 @@ void ValidateNelderMead(const NelderMeadOptions& options) {
   Require(!options.steps.empty(), "nelder_mead.steps", "no steps", "at least one");
   Require(!options.groups.empty(), "nelder_mead.groups", "no groups", "at least one, e.g. \"*\"");
   for (const double step : options.steps) {
-    Require(step > 0.0 && step < 1.0,
-            "nelder_mead.steps",
-            step,
-            "fractions of the range in (0, 1)");
+    Require(
+        step > 0.0 && step < 1.0, "nelder_mead.steps", step, "fractions of the range in (0, 1)");
   }
   Require(options.convergence > 0.0 && options.convergence < 1.0,
           "nelder_mead.convergence",
@@ -156,15 +154,8 @@ void SamplerOptions::Validate() const {
 }
 
 const std::vector<std::string>& SamplerNames() {
-  static const std::vector<std::string> names = {"random",
-                                                 "sobol",
-                                                 "tpe",
-                                                 "tpe_multivariate",
-                                                 "gp",
-                                                 "cmaes",
-                                                 "de",
-                                                 "nelder_mead",
-                                                 "grid"};
+  static const std::vector<std::string> names = {
+      "random", "sobol", "tpe", "tpe_multivariate", "gp", "cmaes", "de", "nelder_mead", "grid"};
   return names;
 }
 

@@ -53,7 +53,8 @@ void SearchBox::Validate() const {
   if (parameters.empty()) throw InputError("", "search", "no parameters", "at least one");
   std::set<std::string> names;
   for (const Parameter& parameter : parameters) {
-    if (parameter.name.empty()) throw InputError("", "search", "a parameter without name", "a name");
+    if (parameter.name.empty())
+      throw InputError("", "search", "a parameter without name", "a name");
     const std::string field = "search." + parameter.name;
     if (!names.insert(parameter.name).second) {
       throw InputError("", field, "the name twice", "different names");

@@ -80,10 +80,10 @@ void TpeStrategy::Observe(std::int64_t id,
                           double energy,
                           TrialState state) {
   Commit();
-  const auto it = std::lower_bound(entries_.begin(),
-                                   entries_.end(),
-                                   id,
-                                   [](const Entry& entry, std::int64_t i) { return entry.id < i; });
+  const auto it = std::lower_bound(
+      entries_.begin(), entries_.end(), id, [](const Entry& entry, std::int64_t i) {
+        return entry.id < i;
+      });
   const bool known = it != entries_.end() && it->id == id;
   if (known && !Finished(state)) Remove(it - entries_.begin());
   if (!Finished(state)) return;
@@ -99,10 +99,10 @@ void TpeStrategy::Observe(std::int64_t id,
 
 void TpeStrategy::Insert(const Entry& entry, const UnitPoint& point) {
   pairs_.clear();
-  const auto it = std::upper_bound(entries_.begin(),
-                                   entries_.end(),
-                                   entry.id,
-                                   [](std::int64_t i, const Entry& e) { return i < e.id; });
+  const auto it = std::upper_bound(
+      entries_.begin(), entries_.end(), entry.id, [](std::int64_t i, const Entry& e) {
+        return i < e.id;
+      });
   const std::size_t index = it - entries_.begin();
   entries_.insert(it, entry);
   for (std::size_t d = 0; d < context_.dimension; ++d) {
@@ -168,7 +168,8 @@ void TpeStrategy::BuildModel() {
     pairs_.push_back(MakePair(by_value_[0], all));
     return;
   }
-  for (std::size_t d = 0; d < context_.dimension; ++d) pairs_.push_back(MakePair(by_value_[d], {d}));
+  for (std::size_t d = 0; d < context_.dimension; ++d)
+    pairs_.push_back(MakePair(by_value_[d], {d}));
 }
 
 TpeStrategy::DensityPair TpeStrategy::MakePair(const std::vector<std::size_t>& order,

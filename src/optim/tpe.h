@@ -30,10 +30,7 @@ class TpeStrategy final : public Strategy {
 
   std::optional<UnitPoint> Propose(std::int64_t id) override;
   void Reject(std::int64_t id) override;
-  void Observe(std::int64_t id,
-               const UnitPoint& point,
-               double energy,
-               TrialState state) override;
+  void Observe(std::int64_t id, const UnitPoint& point, double energy, TrialState state) override;
 
   static constexpr int kPatience = 100;
 

@@ -21,21 +21,19 @@ Columns FromRows(const std::vector<double>& rows, int dimensions) {
 
 ParzenEstimator Estimator(const ParzenCase& c) {
   const Columns points = FromRows(c.points, c.dimensions);
-  return ParzenEstimator(
-      points,
-      TpeWeights(points[0].size()),
-      std::vector<bool>(c.dimensions, false),
-      {c.multivariate ? BandwidthRule::kScott : BandwidthRule::kNeighbours,
-       c.prior_weight,
-       c.magic_clip,
-       c.endpoints});
+  return ParzenEstimator(points,
+                         TpeWeights(points[0].size()),
+                         std::vector<bool>(c.dimensions, false),
+                         {c.multivariate ? BandwidthRule::kScott : BandwidthRule::kNeighbours,
+                          c.prior_weight,
+                          c.magic_clip,
+                          c.endpoints});
 }
 
 TEST(ParzenEstimator, LogDensitiesEqualOptunas) {
   for (const ParzenCase& c : kParzenCases) {
     SCOPED_TRACE(std::to_string(c.points.size()) + " numbers, " + std::to_string(c.dimensions));
-    const std::vector<double> found =
-        Estimator(c).LogDensities(FromRows(c.queries, c.dimensions));
+    const std::vector<double> found = Estimator(c).LogDensities(FromRows(c.queries, c.dimensions));
     ASSERT_EQ(found.size(), c.log_densities.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
       EXPECT_NEAR(found[i], c.log_densities[i], 1e-9);
@@ -88,7 +86,8 @@ TEST(ParzenEstimator, PeriodicDensityTurnsWithItsPoints) {
   std::vector<double> turned;
   for (const double x : points) turned.push_back(std::fmod(x + 0.3, 1.0));
   const std::vector<double> weights(points.size(), 1.0);
-  const auto before = ParzenEstimator({points}, weights, {true}, {}).LogDensities({{0.0, 0.4, 0.9}});
+  const auto before =
+      ParzenEstimator({points}, weights, {true}, {}).LogDensities({{0.0, 0.4, 0.9}});
   const auto after = ParzenEstimator({turned}, weights, {true}, {}).LogDensities({{0.3, 0.7, 0.2}});
   for (std::size_t i = 0; i < before.size(); ++i) EXPECT_NEAR(before[i], after[i], 1e-12);
 }

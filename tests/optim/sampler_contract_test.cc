@@ -202,14 +202,16 @@ TEST_P(SamplerContract, FailuresAndInfeasibleResultsDoNotStopTheSearch) {
 
 TEST_P(SamplerContract, ScoreThatAlwaysFailsSpendsTheBudgetAndHasNoBest) {
   for (const double value : {std::nan(""), kInfinity, -kInfinity}) {
-    const Trace trace = Run(pose_like_, [&](std::span<const double>) { return value; }, 60, 4);
+    const Trace trace = Run(
+        pose_like_, [&](std::span<const double>) { return value; }, 60, 4);
     EXPECT_EQ(trace.trials.size(), 60u);
     EXPECT_EQ(trace.Best(), nullptr);
   }
 }
 
 TEST_P(SamplerContract, FlatEnergyIsNoObstacle) {
-  const Trace trace = Run(pose_like_, [](std::span<const double>) { return 1.0; }, 150, 4);
+  const Trace trace = Run(
+      pose_like_, [](std::span<const double>) { return 1.0; }, 150, 4);
   std::set<std::vector<double>> points;
   for (const Trial& trial : trace.trials) points.insert(trial.values);
   EXPECT_GT(points.size(), 100u);
