@@ -22,7 +22,7 @@ enum class LocalizationStatus : std::uint8_t {
 const char* NameOf(LocalizationStatus status);
 
 // A distinct local minimum of the energy.
-struct Mode {
+struct PoseMode {
   Pose pose;  // world frame
   double energy = 1.0;
 };
@@ -60,7 +60,7 @@ struct Localization {
   double energy = 1.0;       // of the best mode, [0, 1]
   double confidence = 0.0;   // probability that the pose is within 2 m and 2 degrees
   PoseSpread spread;
-  std::vector<Mode> modes;  // best first; filled for kAmbiguous too
+  std::vector<PoseMode> modes;  // best first; filled for kAmbiguous too
   EnergyMap map;
   std::uint64_t evaluations = 0;  // energies computed
   std::vector<StageTime> times;

@@ -77,7 +77,9 @@ CueVector PictureEvidence::Cues(const PositionView& view,
   workspace.skyline_rows.resize(sky_.columns());
   SkylineRows(view.skyline, sky_camera_, rotation, workspace.skyline_rows);
   cues[kSkyCue] = static_cast<float>(SkyLogRatio(sky_, workspace.skyline_rows));
-  cues[kFacadeCue] = facades_.LogRatio(view.surfaces, model, rotation);
+  if (!view.surfaces.surfaces.empty()) {
+    cues[kFacadeCue] = facades_.LogRatio(view.surfaces, model, rotation);
+  }
   return cues;
 }
 

@@ -52,6 +52,7 @@ class PictureEvidence {
   // Memory that one thread uses again and again.
   struct Workspace {
     std::vector<ProjectedSegment> segments;
+    std::vector<LineSegment> lines;
     std::vector<float> skyline_rows;
   };
 

@@ -9,8 +9,11 @@ namespace ridgeline {
 
 PositionView ViewFrom(const Scene& scene,
                       const Eigen::Vector3d& position,
-                      const PanoramaRange& range) {
+                      const PanoramaRange& range,
+                      const ViewParts& parts) {
   PositionView view;
+  if (parts.surfaces) view.surfaces = SurfacesFrom(scene, position, range);
+  if (!parts.edges_and_skyline) return view;
   view.visible = scene.VisibleFrom(position, range.sector);
   view.kinds.reserve(view.visible.pieces.size());
   for (const VisiblePiece& piece : view.visible.pieces) {
@@ -25,7 +28,6 @@ PositionView ViewFrom(const Scene& scene,
                               std::cos(azimuth) * std::cos(elevation),
                               std::sin(elevation));
   }
-  view.surfaces = SurfacesFrom(scene, position, range);
   return view;
 }
 

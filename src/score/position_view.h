@@ -18,9 +18,16 @@ struct PositionView {
   SurfacePanorama surfaces;
 };
 
+// Which parts of a view a score reads; the others are left empty.
+struct ViewParts {
+  bool edges_and_skyline = true;
+  bool surfaces = true;
+};
+
 PositionView ViewFrom(const Scene& scene,
                       const Eigen::Vector3d& position,
-                      const PanoramaRange& range);
+                      const PanoramaRange& range,
+                      const ViewParts& parts);
 
 // Directions that a camera can see within half-ranges [deg] of heading, pitch and roll around
 // `center`; `step` [rad] is that of the panorama.

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "localize/localizer_options.h"
+
+#include <algorithm>
+#include <array>
+
+#include "base/error.h"
+
+namespace ridgeline {
+namespace {
+
+void RequirePositive(const char* field, double value) {
+  if (!(value > 0.0)) throw InputError("", field, std::to_string(value), "> 0");
+}
+
+}  // namespace
+
+void ScoreOptions::Visit(OptionVisitor& v) {
+  v.Field("name", name);
+  v.Field("weights", weights);
+  v.Group("evidence", [this](OptionVisitor& g) { evidence.Visit(g); });
+  v.Group("line_energy", [this](OptionVisitor& g) { line_energy.Visit(g); });
+}
+
+void ScoreOptions::Validate() const {
+  constexpr std::array kNames = {"evidence", "line_energy", "line_energy_zbuffer", "skyline_l1"};
+  if (std::find(kNames.begin(), kNames.end(), name) == kNames.end()) {
+    throw InputError("", "score.name", "\"" + name + "\"",
+                     "evidence, line_energy, line_energy_zbuffer or skyline_l1");
+  }
+  if (weights.size() != kCues) {
+    throw InputError("", "score.weights", std::to_string(weights.size()) + " numbers",
+                     std::to_string(kCues) + ", one per cue");
+  }
+  for (const double weight : weights) {
+    if (!(weight >= 0.0)) throw InputError("", "score.weights", std::to_string(weight), ">= 0");
+  }
+  evidence.Validate();
+  line_energy.Validate();
+}
+
+void MapOptions::Visit(OptionVisitor& v) {
+  v.Field("spacing_m", spacing_m);
+  v.Field("heading_step_deg", heading_step_deg);
+  v.Field("height_step_m", height_step_m);
+  v.Field("tilts", tilts);
+  v.Field("modes", modes);
+  v.Field("mode_separation_m", mode_separation_m);
+  v.Field("mode_separation_deg", mode_separation_deg);
+}
+
+void MapOptions::Validate() const {
+  RequirePositive("search.map.spacing_m", spacing_m);
+  RequirePositive("search.map.heading_step_deg", heading_step_deg);
+  RequirePositive("search.map.height_step_m", height_step_m);
+  RequirePositive("search.map.tilts", tilts);
+  RequirePositive("search.map.modes", modes);
+  RequirePositive("search.map.mode_separation_m", mode_separation_m);
+  RequirePositive("search.map.mode_separation_deg", mode_separation_deg);
+}
+
+void SearchOptions::Visit(OptionVisitor& v) {
+  space.Visit(v);
+  v.Field("method", method);
+  v.Group("map", [this](OptionVisitor& g) { map.Visit(g); });
+  v.Field("evaluations", evaluations);
+  v.Group("sampler", [this](OptionVisitor& g) { sampler.Visit(g); });
+  v.Field("refine", refine);
+}
+
+void SearchOptions::Validate() const {
+  if (method != "map" && method != "sampler") {
+    throw InputError("", "search.method", "\"" + method + "\"", "map or sampler");
+  }
+  RequirePositive("search.evaluations", evaluations);
+  space.Validate();
+  map.Validate();
+  sampler.Validate();
+}
+
+void ConfidenceOptions::Visit(OptionVisitor& v) {
+  v.Field("abstain_below", abstain_below);
+  v.Field("offset", offset);
+  v.Field("slope", slope);
+  v.Field("temperature", temperature);
+  v.Field("floor_m", floor_m);
+  v.Field("floor_deg", floor_deg);
+}
+
+void ConfidenceOptions::Validate() const {
+  if (!(abstain_below >= 0.0 && abstain_below <= 1.0)) {
+    throw InputError("", "confidence.abstain_below", std::to_string(abstain_below), "[0, 1]");
+  }
+  RequirePositive("confidence.slope", slope);
+  RequirePositive("confidence.temperature", temperature);
+  RequirePositive("confidence.floor_m", floor_m);
+  RequirePositive("confidence.floor_deg", floor_deg);
+}
+
+void LocalizerOptions::Visit(OptionVisitor& v) {
+  v.Group("lines", [this](OptionVisitor& g) { lines.Visit(g); });
+  v.Group("projection", [this](OptionVisitor& g) { projection.Visit(g); });
+  v.Group("score", [this](OptionVisitor& g) { score.Visit(g); });
+  v.Group("search", [this](OptionVisitor& g) { search.Visit(g); });
+  v.Group("confidence", [this](OptionVisitor& g) { confidence.Visit(g); });
+}
+
+void LocalizerOptions::Validate() const {
+  lines.Validate();
+  projection.Validate();
+  score.Validate();
+  search.Validate();
+  confidence.Validate();
+}
+
+}  // namespace ridgeline

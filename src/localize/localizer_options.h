@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/options.h"
+#include "lines/line_detector.h"
+#include "localize/pose_space.h"
+#include "optim/sampler_options.h"
+#include "projection/scene.h"
+#include "score/line_energy.h"
+#include "score/picture_evidence.h"
+
+namespace ridgeline {
+
+struct ScoreOptions {
+  // "evidence": ours. "line_energy": Loeper et al. on visible edges; "line_energy_zbuffer": the same
+  // on edges from a z-buffer, as in the paper. "skyline_l1": Ayadi et al.
+  std::string name = "evidence";
+  // Weights of the cues, in the order of kCueNames: the maximum likelihood of the dev queries
+  // (docs/scores.md has the command).
+  std::vector<double> weights = {0.144, 0.054, 0.029, 0.122, 1.228, 5.424, 0.828};
+  EvidenceOptions evidence;
+  LineEnergyOptions line_energy;
+
+  void Visit(OptionVisitor& v);
+  void Validate() const;
+};
+
+// Dense map over the search box, then refinement of its modes.
+struct MapOptions {
+  // Spacing of positions [m] and headings [deg].
+  double spacing_m = 1.0;
+  double heading_step_deg = 1.0;
+  // Of heights [m], where the height is free.
+  double height_step_m = 2.5;
+  // Hypotheses of pitch and roll from the picture's vertical lines, where they are free.
+  int tilts = 2;
+  // Modes refined, and the least distance between them.
+  int modes = 12;
+  double mode_separation_m = 1.5;
+  double mode_separation_deg = 2.5;
+
+  void Visit(OptionVisitor& v);
+  void Validate() const;
+};
+
+struct SearchOptions {
+  PoseSpaceOptions space;
+  // "map", or the sampler of `sampler` with `evaluations`.
+  std::string method = "map";
+  MapOptions map;
+  int evaluations = 200;
+  SamplerOptions sampler;
+  // Whether the modes are refined on the exact score.
+  bool refine = true;
+
+  void Visit(OptionVisitor& v);
+  void Validate() const;
+};
+
+struct ConfidenceOptions {
+  // Answers below this confidence are withheld.
+  double abstain_below = 0.0;
+  // Logistic calibration of the posterior mass: logit(confidence) = offset + slope * logit(mass).
+  double offset = 0.0;
+  double slope = 1.0;
+  // Widens the posterior, since samples of a picture are correlated.
+  double temperature = 1.0;
+  // Least standard deviations, of what the map cannot resolve.
+  double floor_m = 0.3;
+  double floor_deg = 0.2;
+
+  void Visit(OptionVisitor& v);
+  void Validate() const;
+};
+
+// Everything that can be set about a localization; configs/default.json is a dump of it.
+struct LocalizerOptions {
+  LineDetectionOptions lines;
+  ProjectionOptions projection;
+  ScoreOptions score;
+  SearchOptions search;
+  ConfidenceOptions confidence;
+
+  void Visit(OptionVisitor& v);
+  void Validate() const;
+};
+
+}  // namespace ridgeline

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "localize/gravity.h"
+#include "localize/localization.h"
+#include "localize/localizer_options.h"
+#include "localize/pose_space.h"
+#include "score/score.h"
+
+namespace ridgeline {
+
+// A pose tried: offset from the prior and log likelihood ratio.
+struct ScoredPose {
+  PoseSpace::Offset offset;
+  double log_ratio = 0.0;
+};
+
+// Log likelihood ratios on a dense grid of the search box.
+struct PoseVolume {
+  // Offsets from the prior; a fixed parameter has one, 0.
+  std::vector<double> east_m;
+  std::vector<double> north_m;
+  std::vector<double> height_m;
+  std::vector<double> heading_deg;
+  std::vector<Tilt> tilts;  // absolute
+  // By height, north, east, heading, tilt (the last fastest); -infinity: not admissible or nothing
+  // of the model in view.
+  std::vector<float> log_ratios;
+  std::uint64_t evaluations = 0;
+  std::uint64_t admissible_positions = 0;
+
+  std::size_t orientations() const { return heading_deg.size() * tilts.size(); }
+  PoseSpace::Offset OffsetOf(std::size_t index, const ViewAngles& center) const;
+};
+
+// Visibility is computed once per position, in parallel over positions.
+PoseVolume ComputeVolume(const Score& score,
+                         const Scene& scene,
+                         const PoseSpace& space,
+                         const PinholeCamera& camera,
+                         std::span<const Tilt> tilts,
+                         double surface_step_rad,
+                         const MapOptions& options,
+                         int threads);
+
+// The highest places of the volume that are at least the separation of the options apart, highest
+// first.
+std::vector<ScoredPose> FindModes(const PoseVolume& volume,
+                                  const PoseSpace& space,
+                                  const MapOptions& options);
+
+// Energies by position, the least over heights and orientations.
+EnergyMap MapOf(const PoseVolume& volume, const PoseSpace& space, const CityModel& model);
+
+}  // namespace ridgeline

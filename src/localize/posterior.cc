@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "localize/posterior.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace ridgeline {
+namespace {
+
+constexpr double kNearM = 2.0;
+constexpr double kNearDeg = 2.0;
+// Poses that belong to the peak whose width is the spread.
+constexpr double kPeakM = 3.0;
+constexpr double kPeakDeg = 3.0;
+
+struct Sample {
+  PoseSpace::Offset offset;
+  double log_ratio = 0.0;
+};
+
+double DistanceM(const PoseSpace::Offset& a, const PoseSpace::Offset& b) {
+  return Eigen::Vector3d(a.east_m - b.east_m, a.north_m - b.north_m, a.height_m - b.height_m).norm();
+}
+
+double AngleDeg(const PoseSpace::Offset& a, const PoseSpace::Offset& b) {
+  return Eigen::Vector3d(HeadingDifferenceDeg(a.heading_deg, b.heading_deg),
+                         a.pitch_deg - b.pitch_deg,
+                         a.roll_deg - b.roll_deg)
+      .norm();
+}
+
+double Calibrated(double mass, const ConfidenceOptions& options) {
+  constexpr double kEdge = 1e-6;
+  const double p = std::clamp(mass, kEdge, 1.0 - kEdge);
+  const double logit = options.offset + options.slope * std::log(p / (1.0 - p));
+  return 1.0 / (1.0 + std::exp(-logit));
+}
+
+Posterior FromSamples(const std::vector<Sample>& samples,
+                      const PoseSpace::Offset& best,
+                      const ConfidenceOptions& options) {
+  double highest = samples.front().log_ratio;
+  for (const Sample& sample : samples) highest = std::max(highest, sample.log_ratio);
+  double total = 0.0;
+  double near = 0.0;
+  double peak = 0.0;
+  Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
+  double heading_moment = 0.0;
+  for (const Sample& sample : samples) {
+    const double weight = std::exp((sample.log_ratio - highest) / options.temperature);
+    total += weight;
+    const double distance = DistanceM(sample.offset, best);
+    const double angle = AngleDeg(sample.offset, best);
+    if (distance <= kNearM && angle <= kNearDeg) near += weight;
+    if (distance > kPeakM || angle > kPeakDeg) continue;
+    peak += weight;
+    const Eigen::Vector2d d(sample.offset.east_m - best.east_m,
+                            sample.offset.north_m - best.north_m);
+    const double h = HeadingDifferenceDeg(sample.offset.heading_deg, best.heading_deg);
+    moments += weight * d * d.transpose();
+    heading_moment += weight * h * h;
+  }
+  Posterior posterior;
+  posterior.mass = near / total;
+  posterior.confidence = Calibrated(posterior.mass, options);
+  const double share = peak > 0.0 ? 1.0 / peak : 0.0;
+  posterior.spread.position_covariance =
+      moments * share + options.floor_m * options.floor_m * Eigen::Matrix2d::Identity();
+  posterior.spread.heading_sigma_deg =
+      std::sqrt(heading_moment * share + options.floor_deg * options.floor_deg);
+  return posterior;
+}
+
+}  // namespace
+
+Posterior PosteriorOf(const PoseVolume& volume,
+                      std::span<const ScoredPose> modes,
+                      const PoseSpace& space,
+                      const ConfidenceOptions& options) {
+  // A cell of the volume stands beside the peak of its mode; it is lifted by what the refinement
+  // gained there, falling off over the size of a cell.
+  const double radius_m =
+      volume.east_m.size() > 1 ? volume.east_m[1] - volume.east_m[0] : 1.0;
+  std::vector<Sample> samples;
+  for (const ScoredPose& mode : modes) samples.push_back({mode.offset, mode.log_ratio});
+  for (std::size_t i = 0; i < volume.log_ratios.size(); ++i) {
+    if (!std::isfinite(volume.log_ratios[i])) continue;
+    const PoseSpace::Offset offset = volume.OffsetOf(i, space.center_angles());
+    const bool is_mode = std::any_of(modes.begin(), modes.end(), [&](const ScoredPose& mode) {
+      return DistanceM(offset, mode.offset) < 0.5 * radius_m &&
+             AngleDeg(offset, mode.offset) < 0.5;
+    });
+    if (!is_mode) samples.push_back({offset, volume.log_ratios[i]});
+  }
+  return FromSamples(samples, modes.front().offset, options);
+}
+
+Posterior PosteriorOf(std::span<const ScoredPose> modes, const ConfidenceOptions& options) {
+  std::vector<Sample> samples;
+  for (const ScoredPose& mode : modes) samples.push_back({mode.offset, mode.log_ratio});
+  return FromSamples(samples, modes.front().offset, options);
+}
+
+}  // namespace ridgeline

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "localize/refine_pose.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace ridgeline {
+namespace {
+
+constexpr std::array<double PoseSpace::Offset::*, 3> kAngles = {&PoseSpace::Offset::heading_deg,
+                                                               &PoseSpace::Offset::pitch_deg,
+                                                               &PoseSpace::Offset::roll_deg};
+constexpr std::array<double PoseSpace::Offset::*, 3> kPlace = {&PoseSpace::Offset::east_m,
+                                                              &PoseSpace::Offset::north_m,
+                                                              &PoseSpace::Offset::height_m};
+
+class Climber {
+ public:
+  Climber(const Score& score,
+          const Scene& scene,
+          const PoseSpace& space,
+          const PinholeCamera& camera,
+          double surface_step_rad)
+      : score_(score),
+        scene_(scene),
+        space_(space),
+        camera_(camera),
+        surface_step_rad_(surface_step_rad),
+        place_ranges_{space.ranges().east_m, space.ranges().north_m, space.ranges().height_m},
+        angle_ranges_{space.ranges().heading_deg, space.ranges().pitch_deg,
+                      space.ranges().roll_deg} {}
+
+  RefinedPose Climb(const ScoredPose& start, const RefineSteps& steps) {
+    ScoredPose best = start;
+    double angle_step = steps.first_deg;
+    AtPlace(best, angle_step);
+    for (double step = steps.first_m; step >= steps.last_m; step *= 0.5, angle_step *= 0.5) {
+      for (bool moved = true; moved;) {
+        moved = false;
+        for (std::size_t k = 0; k < kPlace.size(); ++k) {
+          if (place_ranges_[k] > 0.0) moved = TryBothWays(best, k, step, angle_step) || moved;
+        }
+      }
+    }
+    return {best, evaluations_};
+  }
+
+ private:
+  bool TryBothWays(ScoredPose& best, std::size_t k, double step, double angle_step) {
+    for (const double sign : {1.0, -1.0}) {
+      ScoredPose candidate = best;
+      double& value = candidate.offset.*kPlace[k];
+      value = std::clamp(value + sign * step, -place_ranges_[k], place_ranges_[k]);
+      if (value == best.offset.*kPlace[k]) continue;
+      if (!AtPlace(candidate, angle_step) || candidate.log_ratio <= best.log_ratio) continue;
+      best = candidate;
+      return true;
+    }
+    return false;
+  }
+
+  // Maximises the free angles at the pose's place; false if the place is not admissible.
+  bool AtPlace(ScoredPose& pose, double step) {
+    const PoseSpace::Offset& o = pose.offset;
+    const auto position = space_.PositionAt(o.east_m, o.north_m, o.height_m);
+    if (!position) return false;
+    constexpr double kMarginDeg = 3.0;  // of the angles around the first ones
+    const PositionView view =
+        ViewFrom(scene_,
+                 *position,
+                 RangeOf(camera_, space_.AnglesAt(o), {kMarginDeg, kMarginDeg, kMarginDeg},
+                         surface_step_rad_),
+                 score_.parts());
+    const auto evaluate = [&](const PoseSpace::Offset& offset) {
+      ++evaluations_;
+      return score_.LogRatio(view, {CamFromWorld(space_.AnglesAt(offset)), *position}, workspace_);
+    };
+    pose.log_ratio = evaluate(pose.offset);
+    const PoseSpace::Offset first = pose.offset;
+    for (double s = step; s >= 0.25 * step; s *= 0.5) {
+      for (bool moved = true; moved;) {
+        moved = false;
+        for (std::size_t k = 0; k < kAngles.size(); ++k) {
+          if (angle_ranges_[k] <= 0.0) continue;
+          for (const double sign : {1.0, -1.0}) {
+            PoseSpace::Offset candidate = pose.offset;
+            double& value = candidate.*kAngles[k];
+            value = std::clamp(value + sign * s, -angle_ranges_[k], angle_ranges_[k]);
+            if (std::abs(value - first.*kAngles[k]) > kMarginDeg) continue;
+            const double log_ratio = evaluate(candidate);
+            if (log_ratio <= pose.log_ratio) continue;
+            pose = {candidate, log_ratio};
+            moved = true;
+            break;
+          }
+        }
+      }
+    }
+    return true;
+  }
+
+  const Score& score_;
+  const Scene& scene_;
+  const PoseSpace& space_;
+  const PinholeCamera& camera_;
+  double surface_step_rad_;
+  std::array<double, 3> place_ranges_;
+  std::array<double, 3> angle_ranges_;
+  PictureEvidence::Workspace workspace_;
+  std::uint64_t evaluations_ = 0;
+};
+
+}  // namespace
+
+RefinedPose RefinePose(const Score& score,
+                       const Scene& scene,
+                       const PoseSpace& space,
+                       const PinholeCamera& camera,
+                       double surface_step_rad,
+                       const ScoredPose& start,
+                       const RefineSteps& steps) {
+  return Climber(score, scene, space, camera, surface_step_rad).Climb(start, steps);
+}
+
+}  // namespace ridgeline

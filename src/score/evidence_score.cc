@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "score/evidence_score.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+namespace ridgeline {
+
+EvidenceScore::EvidenceScore(const PictureEvidence& evidence,
+                             const CityModel& model,
+                             const std::vector<double>& weights)
+    : evidence_(evidence), model_(model) {
+  assert(weights.size() == weights_.size());
+  std::copy(weights.begin(), weights.end(), weights_.begin());
+}
+
+double EvidenceScore::LogRatio(const PositionView& view,
+                               const Pose& cam_from_local,
+                               PictureEvidence::Workspace& workspace) const {
+  const CueVector cues = evidence_.Cues(view, model_, cam_from_local, workspace);
+  if (workspace.segments.empty()) return -std::numeric_limits<double>::infinity();
+  double sum = 0.0;
+  for (int k = 0; k < kCues; ++k) sum += weights_[k] * cues[k];
+  return sum;
+}
+
+}  // namespace ridgeline

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "score/score.h"
+
+namespace ridgeline {
+
+// Weighted sum of the cues of PictureEvidence: the log-linear model P(pose) ~ exp(sum of w_k cue_k)
+// over the poses of a search, whose weights are those of the highest likelihood of the true poses of
+// the dev queries.
+class EvidenceScore final : public Score {
+ public:
+  // `evidence` and `model` must outlive the score. One weight per cue, >= 0.
+  EvidenceScore(const PictureEvidence& evidence,
+                const CityModel& model,
+                const std::vector<double>& weights);
+
+  ViewParts parts() const override { return {true, weights_[kFacadeCue] > 0.0}; }
+  double LogRatio(const PositionView& view,
+                  const Pose& cam_from_local,
+                  PictureEvidence::Workspace& workspace) const override;
+
+ private:
+  const PictureEvidence& evidence_;
+  const CityModel& model_;
+  std::array<double, kCues> weights_{};
+};
+
+}  // namespace ridgeline

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "score/line_energy.h"
+#include "score/score.h"
+
+namespace ridgeline {
+
+// The energy of Loeper et al. on exact visible edges.
+class LineEnergyScore final : public Score {
+ public:
+  // @param segments  Of the picture, in the pixels of `camera`.
+  LineEnergyScore(std::span<const LineSegment> segments,
+                  const PinholeCamera& camera,
+                  const LineEnergyOptions& options);
+
+  ViewParts parts() const override { return {true, false}; }
+  double LogRatio(const PositionView& view,
+                  const Pose& cam_from_local,
+                  PictureEvidence::Workspace& workspace) const override;
+
+ private:
+  PinholeCamera camera_;
+  LineEnergy energy_;
+};
+
+}  // namespace ridgeline
