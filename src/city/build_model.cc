@@ -13,6 +13,7 @@
 #include "base/parallel.h"
 #include "city/face_set.h"
 #include "city/feature_edges.h"
+#include "city/joint_seams.h"
 #include "city/orient_faces.h"
 #include "city/point_welder.h"
 #include "city/select_lod.h"
@@ -324,6 +325,7 @@ CityModel BuildModel(std::vector<SourceModel>& sources,
   const FeatureEdgeOptions edge_options{
       options.min_dihedral_deg, options.adjoin_m, options.threads};
   model.feature_edges = FindFeatureEdges(set, collector.roots(), edge_options);
+  MarkJointSeams(set, collector.roots(), options.joint_m, model.feature_edges);
   model.vertices = std::move(set.vertices);
   const std::vector<std::string> lines = tally.Lines();
   model.warnings.insert(model.warnings.end(), lines.begin(), lines.end());

@@ -136,6 +136,7 @@ void CityOptions::Validate() const {
   CheckRange("min_dihedral_deg", min_dihedral_deg, 0.1, 170.0);
   CheckRange("weld_m", weld_m, 1e-6, 0.5);
   CheckRange("adjoin_m", adjoin_m, 1e-3, 1.0);
+  CheckRange("joint_m", joint_m, 0.0, 2.0);
   CheckRange("threads", threads, 0, 4096);
 }
 

@@ -24,6 +24,9 @@ struct CityOptions {
   double weld_m = 0.005;
   // Faces and edges closer than this touch, e.g. the walls that adjoining buildings share [m].
   double adjoin_m = 0.05;
+  // A corner where the facade goes on in another building's, no farther than this in front of it or
+  // behind it, is a seam [m]; 0: only corners without any step are.
+  double joint_m = 0.35;
   // Threads; 0: all.
   int threads = 0;
 
@@ -34,6 +37,7 @@ struct CityOptions {
     v.Field("min_dihedral_deg", min_dihedral_deg);
     v.Field("weld_m", weld_m);
     v.Field("adjoin_m", adjoin_m);
+    v.Field("joint_m", joint_m);
     v.Field("threads", threads);
   }
   // Throws InputError naming the field, e.g. "city.weld_m".

@@ -157,6 +157,26 @@ TEST(FeatureEdges, NarrowGapCountsAsTouching) {
   EXPECT_EQ(apart.feature_edges.size(), 24u);
 }
 
+TEST(FeatureEdges, JointOfFacadesOutOfLineIsASeam) {
+  // The right house stands 20 cm back, 10 cm apart, and is 3 m lower.
+  const std::string members =
+      Box("a", {0, 0, 0}, {10, 10, 10}) + Box("b", {10.1, 0.2, 0}, {20, 10.2, 7});
+  const CityModel model = Read(members);
+  const std::vector<FeatureEdge> low = EdgesAt(model, {10, 0, 3});
+  ASSERT_EQ(low.size(), 1u);
+  EXPECT_TRUE(low[0].seam);
+  EXPECT_NEAR((low[0].b - low[0].a).norm(), 7.0, 1e-6);
+  const std::vector<FeatureEdge> high = EdgesAt(model, {10, 0, 9});
+  ASSERT_EQ(high.size(), 1u);
+  EXPECT_FALSE(high[0].seam);
+  EXPECT_TRUE(EdgesAt(model, {10.1, 0.2, 3})[0].seam);
+  EXPECT_FALSE(EdgesAt(model, {0, 0, 3})[0].seam);
+  EXPECT_FALSE(EdgesAt(model, {20, 0.2, 3})[0].seam);
+  CityOptions strict;
+  strict.joint_m = 0.0;
+  EXPECT_FALSE(EdgesAt(Read(members, strict), {10, 0, 3})[0].seam);
+}
+
 TEST(FeatureEdges, SplitWallHasNoEdgeWithin) {
   std::vector<Ring> rings = BoxRings(kCorner, kCorner + Vector3d(10, 8, 6));
   const Vector3d low = kCorner + Vector3d(4, 0, 0);
