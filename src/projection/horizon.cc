@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "projection/fast_angle.h"
+
 namespace ridgeline {
 namespace {
 
@@ -48,15 +50,33 @@ class Horizon::Envelope {
   Envelope(const Horizon& horizon, const Columns& columns, std::vector<float>& tangents)
       : horizon_(horizon),
         columns_(columns),
-        turn_(static_cast<int>(horizon.directions_.size())),
+        per_step_(static_cast<float>(1.0 / horizon.step_)),
         tangents_(tangents) {
     tangents_.assign(static_cast<std::size_t>(columns.count), 0.0f);
   }
 
-  // Whether something at azimuths [from, from + width] (rad) up to a tangent could raise it.
-  bool CanRaise(float from, float width, float tangent) const {
+  // Whether a box that the eye stands beside could raise it.
+  bool CanRaise(const Eigen::Vector3f& center, const Eigen::Vector3f& extent) const {
+    const float top = center.z() + extent.z();
+    if (top <= 0.0f) return false;  // the horizontal is the least
+    const Eigen::Vector2f low = (center - extent).head<2>();
+    const Eigen::Vector2f high = (center + extent).head<2>();
+    // Where the box lies: -1, 0 or 1 to the east and to the north.
+    const int east = (low.x() > 0.0f) - (high.x() < 0.0f);
+    const int north = (low.y() > 0.0f) - (high.y() < 0.0f);
+    if (east == 0 && north == 0) return true;
+    // Its corners at the smallest and the largest azimuth.
+    const float start = FastAzimuth(north > 0 || (north == 0 && east > 0) ? low.x() : high.x(),
+                                    east > 0 || (east == 0 && north < 0) ? high.y() : low.y());
+    const float end = FastAzimuth(north > 0 || (north == 0 && east < 0) ? high.x() : low.x(),
+                                  east < 0 || (east == 0 && north < 0) ? high.y() : low.y());
+    const float nearest = std::hypot(std::max({low.x(), -high.x(), 0.0f}),
+                                     std::max({low.y(), -high.y(), 0.0f}));
+    const float tangent = top / nearest;
     bool can = false;
-    ForColumns(from, width, [&](int column, int) { can = can || tangents_[column] < tangent; });
+    ForColumns(start, end, [&](int first, int count, const float*, const float*) {
+      for (int k = first; k < first + count && !can; ++k) can = tangents_[k] < tangent;
+    });
     return can;
   }
 
@@ -68,41 +88,41 @@ class Horizon::Envelope {
     const Eigen::Vector3f& end = turn > 0.0f ? b : a;
     // Points of the edge's plane through the eye obey normal * p = 0; normal.z = -|turn|.
     const Eigen::Vector3f normal = start.cross(end);
-    const float from = Azimuth(start);
-    float width = Azimuth(end) - from;
-    if (width < 0.0f) width += static_cast<float>(kTurn);
     const float east = -normal.x() / normal.z();
     const float north = -normal.y() / normal.z();
-    ForColumns(from, width, [&](int column, int direction) {
-      const Eigen::Vector2f& d = horizon_.directions_[static_cast<std::size_t>(direction)];
-      tangents_[column] = std::max(tangents_[column], east * d.x() + north * d.y());
-    });
+    ForColumns(FastAzimuth(start.x(), start.y()), FastAzimuth(end.x(), end.y()),
+               [&](int first, int count, const float* sines, const float* cosines) {
+                 float* const tangents = tangents_.data() + first;
+                 for (int k = 0; k < count; ++k) {
+                   const float tangent = east * sines[k] + north * cosines[k];
+                   tangents[k] = tangents[k] < tangent ? tangent : tangents[k];
+                 }
+               });
   }
 
-  static float Azimuth(const Eigen::Vector3f& p) { return std::atan2(p.x(), p.y()); }
-
  private:
-  // Calls visit(column of the query, index of its direction) for the columns in the interval.
+  // Calls visit(first column of the query, count, their sines, their cosines) for the columns from
+  // azimuth `start` clockwise to `end`, both in (-pi, pi].
   template <typename Visit>
-  void ForColumns(float from, float width, const Visit& visit) const {
-    const double step = horizon_.step_;
-    const int begin = static_cast<int>(std::ceil(from / step));
-    const int end = static_cast<int>(std::floor((static_cast<double>(from) + width) / step));
-    // The interval and its copies one turn before and after.
-    for (int shift = -turn_; shift <= turn_; shift += turn_) {
+  void ForColumns(float start, float end, const Visit& visit) const {
+    const int turn = horizon_.turn_;
+    const int begin = static_cast<int>(std::ceil(start * per_step_));
+    int last = static_cast<int>(std::floor(end * per_step_));
+    if (end < start) last += turn;
+    // The interval and its copies a turn before and after.
+    for (const int shift : {-turn, 0, turn}) {
       const int low = std::max(begin + shift, columns_.first);
-      const int high = std::min(end + shift, columns_.first + columns_.count - 1);
-      int direction = ((low % turn_) + turn_) % turn_;
-      for (int k = low; k <= high; ++k) {
-        visit(k - columns_.first, direction);
-        if (++direction == turn_) direction = 0;
-      }
+      const int count = std::min(last + shift, columns_.first + columns_.count - 1) - low + 1;
+      if (count <= 0) continue;
+      const int direction = ((low % turn) + turn) % turn;
+      visit(low - columns_.first, count, horizon_.sines_.data() + direction,
+            horizon_.cosines_.data() + direction);
     }
   }
 
   const Horizon& horizon_;
   const Columns columns_;
-  const int turn_;
+  const float per_step_;
   std::vector<float>& tangents_;
 };
 
@@ -110,12 +130,11 @@ Horizon::Horizon(const CityModel& model,
                  const MeshEdges& mesh,
                  const TerrainMesh& terrain,
                  double step_rad) {
-  const int columns = std::max(1, static_cast<int>(std::ceil(kTurn / step_rad - 1e-9)));
-  step_ = kTurn / columns;
-  directions_.reserve(static_cast<std::size_t>(columns));
-  for (int k = 0; k < columns; ++k) {
-    directions_.emplace_back(static_cast<float>(std::sin(k * step_)),
-                             static_cast<float>(std::cos(k * step_)));
+  turn_ = std::max(1, static_cast<int>(std::ceil(kTurn / step_rad - 1e-9)));
+  step_ = kTurn / turn_;
+  for (int k = 0; k < 2 * turn_; ++k) {
+    sines_.push_back(static_cast<float>(std::sin(k * step_)));
+    cosines_.push_back(static_cast<float>(std::cos(k * step_)));
   }
   for (const MeshEdge& edge : mesh.edges) {
     if (IsFlat(model, mesh, edge)) continue;
@@ -163,11 +182,11 @@ void Horizon::AddCluster(const BoxTree& tree, std::int32_t child, std::vector<Ed
 }
 
 Horizon::Columns Horizon::ColumnsOf(double center, double half_width) const {
-  const int turn = static_cast<int>(directions_.size());
-  if (half_width >= std::numbers::pi) return {0, turn};
+  if (half_width >= std::numbers::pi) return {0, turn_};
+  center -= kTurn * std::round(center / kTurn);
   const int first = static_cast<int>(std::ceil((center - half_width) / step_));
   const int last = static_cast<int>(std::floor((center + half_width) / step_));
-  return {first, std::clamp(last - first + 1, 0, turn)};
+  return {first, std::clamp(last - first + 1, 0, turn_)};
 }
 
 void Horizon::Elevations(const Eigen::Vector3f& eye,
@@ -175,32 +194,11 @@ void Horizon::Elevations(const Eigen::Vector3f& eye,
                          const SectorTest& sector,
                          std::vector<float>& elevations) const {
   Envelope envelope(*this, columns, elevations);
-  // Azimuths and highest tangent of a box; false: it cannot raise the envelope.
-  const auto can_raise = [&](const Eigen::Vector3f& center, const Eigen::Vector3f& extent) {
-    const float top = center.z() + extent.z();
-    const Eigen::Array2f reach = center.head<2>().array().abs();
-    const float nearest = (reach - extent.head<2>().array()).max(0.0f).matrix().norm();
-    if (nearest <= 1e-3f) return true;
-    if (top <= 0.0f) return false;  // the horizontal is the least
-    const float from_center = Envelope::Azimuth(center);
-    float low = 0.0f;
-    float high = 0.0f;
-    for (const Eigen::Vector2f& corner :
-         {Eigen::Vector2f(1, 1), Eigen::Vector2f(1, -1), Eigen::Vector2f(-1, 1),
-          Eigen::Vector2f(-1, -1)}) {
-      const Eigen::Vector2f p = center.head<2>() + corner.cwiseProduct(extent.head<2>());
-      const float cross = p.x() * center.y() - p.y() * center.x();
-      const float angle = std::atan2(cross, p.dot(center.head<2>()));
-      low = std::min(low, angle);
-      high = std::max(high, angle);
-    }
-    return envelope.CanRaise(from_center + low, high - low, top / nearest);
-  };
   for (std::uint32_t i = 0; i < clusters_.size();) {
     const Cluster& cluster = clusters_[i];
     const Eigen::Vector3f center = cluster.box.center() - eye;
     const Eigen::Vector3f extent = 0.5f * cluster.box.sizes();
-    if (!sector.MayContainBox(center, extent) || !can_raise(center, extent)) {
+    if (!sector.MayContainBox(center, extent) || !envelope.CanRaise(center, extent)) {
       i = cluster.skip;
       continue;
     }
@@ -211,7 +209,7 @@ void Horizon::Elevations(const Eigen::Vector3f& eye,
     }
     ++i;
   }
-  for (float& elevation : elevations) elevation = std::atan(elevation);
+  for (float& elevation : elevations) elevation = FastAtan(elevation);
 }
 
 }  // namespace ridgeline

@@ -55,7 +55,10 @@ class Horizon {
   void AddCluster(const BoxTree& tree, std::int32_t child, std::vector<Edge>& ordered);
 
   double step_ = 0.0;
-  std::vector<Eigen::Vector2f> directions_;  // (sine, cosine) of the azimuths of a full turn
+  int turn_ = 0;  // columns of a full turn
+  // Sines and cosines of the azimuths of two turns, so that an interval never wraps.
+  std::vector<float> sines_;
+  std::vector<float> cosines_;
   std::vector<Edge> edges_;                  // in the order of the clusters
   std::vector<Cluster> clusters_;            // depth first
 };

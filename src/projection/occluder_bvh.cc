@@ -310,6 +310,8 @@ bool OccluderBvh::Hide(const Eigen::Vector3f& eye,
   const Vec3x4 b4 = Splat3(b);
   const Vec3x4 plane4 = Splat3(normal);
   std::uint32_t& hint = hints[AzimuthRange(a + b, hints.size())];
+  std::uint32_t& hint_a = hints[AzimuthRange(a, hints.size())];
+  std::uint32_t& hint_b = hints[AzimuthRange(b, hints.size())];
 
   // Returns false when nothing is left of the segment.
   const auto cast_leaf = [&](std::uint32_t index) {
@@ -322,6 +324,8 @@ bool OccluderBvh::Hide(const Eigen::Vector3f& eye,
     for (; found != 0; found &= found - 1) {
       const int k = std::countr_zero(found);
       AddHidden({first[k], last[k]}, hidden);
+      if (first[k] <= 0.0f) hint_a = index;
+      if (last[k] >= 1.0f) hint_b = index;
     }
     if (HasGap(hidden, min_part)) return true;
     hint = index;
@@ -329,6 +333,8 @@ bool OccluderBvh::Hide(const Eigen::Vector3f& eye,
   };
 
   if (hint < impl_->leaves.size() && !cast_leaf(hint)) return false;
+  if (hint_a < impl_->leaves.size() && !cast_leaf(hint_a)) return false;
+  if (hint_b < impl_->leaves.size() && !cast_leaf(hint_b)) return false;
 
   const Wedge wedge(a, b, normal.normalized());
   struct Entry {

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+namespace ridgeline {
+
+// Arc tangent for x in [0, 1]; error below 2e-7 in floats.
+// Source: Abramowitz & Stegun, Handbook of Mathematical Functions, 4.4.49.
+inline float FastAtanUpToOne(float x) {
+  const float s = x * x;
+  float p = 0.0028662257f;
+  p = p * s - 0.0161657367f;
+  p = p * s + 0.0429096138f;
+  p = p * s - 0.0752896400f;
+  p = p * s + 0.1065626393f;
+  p = p * s - 0.1420889944f;
+  p = p * s + 0.1999355085f;
+  p = p * s - 0.3333314528f;
+  return x + x * s * p;
+}
+
+// Arc tangent for x >= 0; error below 3e-7.
+inline float FastAtan(float x) {
+  const bool steep = x > 1.0f;
+  const float angle = FastAtanUpToOne(steep ? 1.0f / x : x);
+  return steep ? static_cast<float>(std::numbers::pi / 2) - angle : angle;
+}
+
+// Azimuth of a direction, clockwise from north, in (-pi, pi]; error below 5e-7. 0 for (0, 0).
+inline float FastAzimuth(float east, float north) {
+  const float e = std::abs(east);
+  const float n = std::abs(north);
+  if (e == 0.0f && n == 0.0f) return 0.0f;
+  constexpr auto kPi = static_cast<float>(std::numbers::pi);
+  float angle = e > n ? kPi / 2 - FastAtanUpToOne(n / e) : FastAtanUpToOne(e / n);
+  if (north < 0.0f) angle = kPi - angle;
+  return east < 0.0f ? -angle : angle;
+}
+
+}  // namespace ridgeline
