@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/report_json.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "report/picture_file.h"
+#include "report/report_curves.h"
+
+namespace ridgeline {
+namespace {
+
+using Eigen::Vector2d;
+using Json = nlohmann::ordered_json;
+
+// JSON has no NaN; the script takes null for "none".
+Json Number(double value, double step) {
+  if (!std::isfinite(value)) return nullptr;
+  return std::round(value / step) * step;
+}
+
+Json Optional(const std::optional<double>& value, double step) {
+  return value ? Number(*value, step) : Json(nullptr);
+}
+
+// Whole hundredths of a metre keep lists short; the script divides.
+Json Centimetres(const std::vector<Vector2d>& points, const Vector2d& origin) {
+  Json list = Json::array();
+  for (const Vector2d& p : points) {
+    list.push_back(std::llround(100.0 * (p.x() - origin.x())));
+    list.push_back(std::llround(100.0 * (p.y() - origin.y())));
+  }
+  return list;
+}
+
+Json PoseJson(const std::optional<ReportPose>& pose) {
+  if (!pose) return nullptr;
+  return {{"position",
+           {Number(pose->position.x(), 1e-3), Number(pose->position.y(), 1e-3),
+            Number(pose->position.z(), 1e-3)}},
+          {"heading", Number(pose->heading_deg, 1e-3)},
+          {"pitch", Number(pose->pitch_deg, 1e-3)},
+          {"roll", Number(pose->roll_deg, 1e-3)}};
+}
+
+// Lines of a layer in tenths of a pixel.
+Json LayerJson(const OverlayLayer& layer) {
+  Json lines = Json::array();
+  for (const auto& line : layer.lines) {
+    Json points = Json::array();
+    for (const Eigen::Vector2f& p : line) {
+      points.push_back(std::lround(10.0f * p.x()));
+      points.push_back(std::lround(10.0f * p.y()));
+    }
+    lines.push_back(std::move(points));
+  }
+  return {{"name", layer.name}, {"color", HexColor(layer.color)}, {"lines", std::move(lines)}};
+}
+
+Json LayersJson(const std::vector<OverlayLayer>& layers) {
+  Json list = Json::array();
+  for (const OverlayLayer& layer : layers) {
+    if (!layer.lines.empty()) list.push_back(LayerJson(layer));
+  }
+  return list;
+}
+
+const char* OutcomeName(ReportOutcome outcome) {
+  switch (outcome) {
+    case ReportOutcome::kRight:
+      return "right";
+    case ReportOutcome::kWrong:
+      return "wrong";
+    case ReportOutcome::kAbstained:
+      return "abstained";
+    case ReportOutcome::kUnknown:
+      return "unknown";
+  }
+  return "";
+}
+
+// Outline of the 95 % ellipse of a covariance (chi-square with two degrees of freedom: 5.991).
+std::vector<Vector2d> EllipseOutline(const Vector2d& center, const Eigen::Matrix2d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance);
+  std::vector<Vector2d> outline;
+  for (int i = 0; i <= 48; ++i) {
+    const double turn = 2.0 * 3.14159265358979323846 * i / 48;
+    const Vector2d axes = (5.991 * solver.eigenvalues().cwiseMax(0.0)).cwiseSqrt();
+    outline.push_back(center + solver.eigenvectors() * Vector2d(axes.x() * std::cos(turn),
+                                                                axes.y() * std::sin(turn)));
+  }
+  return outline;
+}
+
+// The point that the map's coordinates are relative to.
+Vector2d MapOrigin(const ReportRun& run) {
+  for (const auto& pose : {run.prior, run.result, run.truth}) {
+    if (pose) return pose->position.head<2>();
+  }
+  return run.map ? run.map->first : Vector2d::Zero();
+}
+
+Json MapJson(const ReportEnergyMap& map, const Vector2d& origin) {
+  Json energies = Json::array();
+  for (const float energy : map.energies) energies.push_back(Number(energy, 1e-4));
+  return {{"east", Number(map.first.x() - origin.x(), 1e-3)},
+          {"north", Number(map.first.y() - origin.y(), 1e-3)},
+          {"spacing", map.spacing_m},
+          {"columns", map.columns},
+          {"rows", map.rows},
+          {"energies", std::move(energies)}};
+}
+
+Json HillshadeJson(const ReportHillshade& hillshade, const Vector2d& origin) {
+  return {{"url", JpegDataUrl(hillshade.shade, 512, 85)},
+          {"lower", {Number(hillshade.lower.x() - origin.x(), 1e-2),
+                     Number(hillshade.lower.y() - origin.y(), 1e-2)}},
+          {"upper", {Number(hillshade.upper.x() - origin.x(), 1e-2),
+                     Number(hillshade.upper.y() - origin.y(), 1e-2)}}};
+}
+
+Json RunRow(const ReportRun& run) {
+  return {{"id", run.id},
+          {"set", run.set},
+          {"seed", run.seed},
+          {"photo", run.photo},
+          {"status", run.status},
+          {"reason", run.reason},
+          {"outcome", OutcomeName(run.outcome)},
+          {"energy", Number(run.energy, 1e-5)},
+          {"confidence", Number(run.confidence, 1e-4)},
+          {"translation", Optional(run.translation_m, 1e-3)},
+          {"rotation", Optional(run.rotation_deg, 1e-3)},
+          {"evaluations", Number(run.evaluations, 1.0)},
+          {"seconds", Number(run.seconds, 1e-3)}};
+}
+
+Json CurveJson(const std::vector<Share95>& curve) {
+  Json list = Json::array();
+  for (const Share95& s : curve) {
+    list.push_back({Number(s.x, 1e-4), Number(s.share, 1e-5), Number(s.lower, 1e-5),
+                    Number(s.upper, 1e-5), s.count});
+  }
+  return list;
+}
+
+Json PairsJson(const std::vector<std::pair<std::string, std::string>>& pairs) {
+  Json list = Json::array();
+  for (const auto& [name, value] : pairs) list.push_back({name, value});
+  return list;
+}
+
+Json PlotJson(const ReportPlot& plot) {
+  Json series = Json::array();
+  for (const ReportSeries& s : plot.series) {
+    Json x = Json::array();
+    Json y = Json::array();
+    for (const double value : s.x) x.push_back(Number(value, 1e-6));
+    for (const double value : s.y) y.push_back(Number(value, 1e-6));
+    series.push_back({{"name", s.name}, {"x", x}, {"y", y}, {"labels", s.labels}, {"line", s.line}});
+  }
+  return {{"title", plot.title},     {"note", plot.note},   {"x", plot.x_label},
+          {"y", plot.y_label},       {"xLog", plot.x_log},  {"series", series}};
+}
+
+// '<' could end the <script> element; invalid UTF-8 is replaced.
+std::string SafeDump(const Json& json) {
+  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string safe;
+  safe.reserve(text.size());
+  for (const char c : text) {
+    if (c == '<') {
+      safe += "\\u003c";
+    } else {
+      safe += c;
+    }
+  }
+  return safe;
+}
+
+}  // namespace
+
+std::string SummaryJson(const ReportData& data) {
+  Json runs = Json::array();
+  for (const ReportRun& run : data.runs) runs.push_back(RunRow(run));
+  Json plots = Json::array();
+  for (const ReportPlot& plot : data.plots) plots.push_back(PlotJson(plot));
+  Json tables = Json::array();
+  for (const ReportTable& table : data.tables) {
+    tables.push_back({{"title", table.title}, {"header", table.header}, {"rows", table.rows}});
+  }
+  return SafeDump({{"title", data.title},
+                   {"command", data.command},
+                   {"version", data.version},
+                   {"crs", data.crs},
+                   {"facts", PairsJson(data.facts)},
+                   {"runs", runs},
+                   {"recall", CurveJson(RecallCurve(data.runs))},
+                   {"reliability", CurveJson(Reliability(data.runs, 10))},
+                   {"plots", plots},
+                   {"tables", tables},
+                   {"warnings", data.warnings},
+                   {"options", data.options_json}});
+}
+
+std::string PhotoJson(const ReportPhoto& photo, int max_side_px) {
+  return SafeDump({{"name", photo.name},
+                   {"width", photo.picture.cols},
+                   {"height", photo.picture.rows},
+                   {"url", JpegDataUrl(photo.picture, max_side_px, 80)}});
+}
+
+std::string RunDetailJson(const ReportRun& run) {
+  const Vector2d origin = MapOrigin(run);
+  Json footprints = Json::array();
+  for (const auto& ring : run.footprints) footprints.push_back(Centimetres(ring, origin));
+  Json modes = Json::array();
+  for (const ReportMode& mode : run.modes) {
+    modes.push_back({{"pose", PoseJson(mode.pose)}, {"energy", Number(mode.energy, 1e-5)}});
+  }
+  Json trace = Json::array();
+  for (const double energy : run.best_energy) trace.push_back(Number(energy, 1e-5));
+  Json ellipse = nullptr;
+  if (run.result && run.position_covariance) {
+    ellipse = Centimetres(
+        EllipseOutline(run.result->position.head<2>(), *run.position_covariance), origin);
+  }
+  return SafeDump({{"origin", {Number(origin.x(), 1e-3), Number(origin.y(), 1e-3)}},
+                   {"prior", PoseJson(run.prior)},
+                   {"result", PoseJson(run.result)},
+                   {"truth", PoseJson(run.truth)},
+                   {"modes", modes},
+                   {"ellipse", ellipse},
+                   {"box", Centimetres(run.search_box, origin)},
+                   {"map", run.map ? MapJson(*run.map, origin) : Json(nullptr)},
+                   {"hillshade",
+                    run.hillshade ? HillshadeJson(*run.hillshade, origin) : Json(nullptr)},
+                   {"footprints", footprints},
+                   {"priorLayers", LayersJson(run.prior_layers)},
+                   {"resultLayers", LayersJson(run.result_layers)},
+                   {"trace", trace},
+                   {"facts", PairsJson(run.facts)}});
+}
+
+}  // namespace ridgeline
