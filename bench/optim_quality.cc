@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Best values of samplers on test functions, as CSV on stdout, for peers/optuna_compare.py:
+//   optim_quality SEEDS [SAMPLER...]
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "optim/minimize.h"
+#include "optim_functions.h"
+
+namespace ridgeline {
+namespace {
+
+constexpr int kTrials = 200;
+
+void Run(const std::string& sampler, const TestFunction& function, std::uint64_t seed) {
+  SamplerOptions options;
+  options.name = sampler;
+  MinimizeOptions run;
+  run.budget = kTrials;
+  const auto begin = std::chrono::steady_clock::now();
+  const Trace trace =
+      Minimize(*MakeSampler(options, {function.Box(), {}, {}}, seed), function.energy, run);
+  const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
+  std::printf("%s,%s,%llu,%.17g,%.17g,%.17g,%.6f\n",
+              sampler.c_str(),
+              function.name.c_str(),
+              static_cast<unsigned long long>(seed),
+              trace.BestEnergyAfter(50),
+              trace.BestEnergyAfter(100),
+              trace.BestEnergyAfter(200),
+              time.count() / kTrials);
+}
+
+}  // namespace
+}  // namespace ridgeline
+
+int main(int argc, char** argv) {
+  const int seeds = argc > 1 ? std::atoi(argv[1]) : 0;
+  if (seeds <= 0) {
+    std::fprintf(stderr, "usage: optim_quality SEEDS [SAMPLER...]\n");
+    return 2;
+  }
+  std::vector<std::string> samplers(argv + 2, argv + argc);
+  if (samplers.empty()) samplers = ridgeline::SamplerNames();
+  std::printf("sampler,function,seed,best50,best100,best200,ms_per_trial\n");
+  for (const std::string& sampler : samplers) {
+    for (const ridgeline::TestFunction& function : ridgeline::TestFunctions()) {
+      for (int seed = 0; seed < seeds; ++seed) ridgeline::Run(sampler, function, seed);
+    }
+  }
+  return 0;
+}
