@@ -60,7 +60,7 @@ double SensorCost(std::span<const double> o, const SkylineMatchOptions& options)
           squared(o[kHeight] / options.height_sigma_m));
 }
 
-// Azimuths that the picture can show at any pose within the limits.
+// Azimuths that the picture can show while it is matched: beyond them columns count as not reached.
 Sector SectorOf(const Pose& start, const PinholeCamera& camera, const SkylineMatchOptions& options) {
   const Eigen::Quaterniond world_from_cam = start.cam_from_world.conjugate();
   const Eigen::Vector3d axis = world_from_cam * Eigen::Vector3d::UnitZ();
@@ -77,7 +77,10 @@ Sector SectorOf(const Pose& start, const PinholeCamera& camera, const SkylineMat
                                               2.0 * std::numbers::pi)));
     }
   }
-  const double margin = options.max_heading_deg + options.max_tilt_deg;
+  const double reach = options.scan_heading_deg > 0.0
+                           ? options.scan_heading_deg + 2.0 * options.heading_step_deg
+                           : options.max_heading_deg;
+  const double margin = std::min(reach, options.max_heading_deg) + 0.5 * options.max_tilt_deg;
   sector.half_width = std::min(half + margin * kRad, sector.half_width);
   return sector;
 }
@@ -324,6 +327,18 @@ SkylineMatch SkylineMatchNamed(const std::string& name) {
   if (name == "3d") return SkylineMatch::k3d;
   if (name == "6dof") return SkylineMatch::k6dof;
   throw InputError("", "match.method", '"' + name + '"', "2d, 2x2d, 3d or 6dof");
+}
+
+const char* NameOf(SkylineMatchStatus status) {
+  switch (status) {
+    case SkylineMatchStatus::kOk: return "ok";
+    case SkylineMatchStatus::kUnusable: return "unusable";
+    case SkylineMatchStatus::kNoModel: return "no_model";
+    case SkylineMatchStatus::kFarFromStart: return "far_from_start";
+    case SkylineMatchStatus::kPoorMatch: return "poor_match";
+    case SkylineMatchStatus::kAmbiguous: return "ambiguous";
+  }
+  return "";
 }
 
 SkylineMatchResult MatchSkyline(const SkylineL1& real,

@@ -51,9 +51,9 @@ struct SkylineMatchOptions {
   // What the sensors are worth: a deviation from the start by these costs sensor_weight_px more
   // [px at 640], by twice as much four times that. Keeps variables that the skyline does not
   // determine near the start. 0: the distance alone, as in the paper.
-  double sensor_weight_px = 0.3;
+  double sensor_weight_px = 0.5;
   double heading_sigma_deg = 10.0;
-  double tilt_sigma_deg = 1.5;
+  double tilt_sigma_deg = 1.0;
   double position_sigma_m = 6.0;
   double height_sigma_m = 1.0;
   // Distance at which a match is believed [px at 640], and by how much it may leave the start.
@@ -81,6 +81,9 @@ enum class SkylineMatchStatus : std::uint8_t {
   kPoorMatch,     // the skylines differ by more than max_distance_px
   kAmbiguous,     // another heading fits as well
 };
+
+// "ok", "unusable", "no_model", "far_from_start", "poor_match", "ambiguous".
+const char* NameOf(SkylineMatchStatus status);
 
 struct SkylineMatchResult {
   SkylineMatchStatus status = SkylineMatchStatus::kUnusable;

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/frame_source.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/videoio.hpp>
+#include <system_error>
+#include <utility>
+
+#include "base/error.h"
+
+namespace ridgeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool IsPicture(const fs::path& path) {
+  static constexpr std::array kExtensions{".jpg", ".jpeg", ".png", ".tif", ".tiff", ".bmp", ".webp"};
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) {
+    return static_cast<char>(std::tolower(c));
+  });
+  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+}
+
+class PictureFiles final : public FrameSource {
+ public:
+  PictureFiles(std::vector<std::string> ids, std::vector<fs::path> files)
+      : ids_(std::move(ids)), files_(std::move(files)) {}
+
+  std::size_t size() const override { return files_.size(); }
+  std::string id(std::size_t index) const override { return ids_[index]; }
+  cv::Mat Read(std::size_t index) override {
+    std::error_code error;
+    if (!fs::is_regular_file(files_[index], error)) return {};
+    return cv::imread(files_[index].string(), cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  }
+
+ private:
+  std::vector<std::string> ids_;
+  std::vector<fs::path> files_;
+};
+
+class Video final : public FrameSource {
+ public:
+  explicit Video(const fs::path& path) : capture_(path.string()) {
+    if (!capture_.isOpened()) {
+      throw InputError(path.string(), "", "nothing that can be played", "a picture, folder or video");
+    }
+    count_ = static_cast<std::size_t>(std::max(0.0, capture_.get(cv::CAP_PROP_FRAME_COUNT)));
+    if (count_ == 0) throw InputError(path.string(), "", "no frames", "a video with frames");
+    frames_per_second_ = capture_.get(cv::CAP_PROP_FPS);
+  }
+
+  std::size_t size() const override { return count_; }
+  std::string id(std::size_t index) const override { return std::to_string(index); }
+  std::optional<double> frames_per_second() const override { return frames_per_second_; }
+  cv::Mat Read(std::size_t index) override {
+    if (index != next_) capture_.set(cv::CAP_PROP_POS_FRAMES, static_cast<double>(index));
+    next_ = index + 1;
+    cv::Mat frame;
+    capture_.read(frame);
+    return frame.clone();
+  }
+
+ private:
+  cv::VideoCapture capture_;
+  std::size_t count_ = 0;
+  std::size_t next_ = 0;
+  double frames_per_second_ = 0.0;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSource> OpenFrames(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) {
+    throw InputError(path.string(), "", "nothing", "a picture, a folder of pictures or a video");
+  }
+  std::vector<fs::path> files;
+  if (fs::is_directory(path, error)) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
+      if (IsPicture(entry.path())) files.push_back(entry.path());
+    }
+    if (files.empty()) throw InputError(path.string(), "", "no pictures", "JPEG, PNG or TIFF files");
+    std::sort(files.begin(), files.end());
+  } else if (IsPicture(path)) {
+    files.push_back(path);
+  } else {
+    return std::make_unique<Video>(path);
+  }
+  std::vector<std::string> ids;
+  for (const fs::path& file : files) ids.push_back(file.stem().string());
+  return std::make_unique<PictureFiles>(std::move(ids), std::move(files));
+}
+
+std::unique_ptr<FrameSource> FramesOfFiles(const std::vector<std::string>& ids,
+                                           const std::vector<fs::path>& files) {
+  return std::make_unique<PictureFiles>(ids, files);
+}
+
+}  // namespace ridgeline

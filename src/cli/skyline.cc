@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/skyline.h"
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "cli/command.h"
+#include "cli/progress.h"
+#include "cli/sequence_input.h"
+#include "cli/skyline_output.h"
+#include "localize/skyline_tracker.h"
+#include "report/overlay.h"
+#include "report/overlay_layers.h"
+#include "report/picture_file.h"
+
+namespace ridgeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SkylineArguments {
+  SequenceArguments sequence;
+  ConfigArguments config;
+  std::string out;
+  std::string video;
+  bool overlays = false;
+  bool columns = false;
+  SkylineTrackOptions track;
+  SensorOptions sensors;
+
+  void Visit(OptionVisitor& v) {
+    track.Visit(v);
+    v.Group("sensors", [&](OptionVisitor& g) { sensors.Visit(g); });
+  }
+};
+
+// Frames per second of an overlay video of single pictures.
+constexpr double kPictureRate = 2.0;
+
+// Writes what is asked for, frame by frame, into the folder.
+class Writer {
+ public:
+  Writer(const SkylineArguments& arguments, const fs::path& folder, const SequenceInput& input)
+      : arguments_(arguments), folder_(folder), input_(input) {
+    if (!arguments.video.empty()) {
+      video_ = std::make_unique<OverlayVideo>(
+          folder / arguments.video, input.source->frames_per_second().value_or(kPictureRate));
+    }
+  }
+
+  void Add(const SkylineFrameResult& result,
+           const cv::Mat& picture,
+           const SkylineFrame& frame,
+           const PinholeCamera& camera) {
+    if (arguments_.columns) {
+      WriteFileAtomically(folder_ / (result.id + "_skyline.csv"), SkylineColumnsCsv(frame.skyline));
+    }
+    if (!video_ && !arguments_.overlays) return;
+    const cv::Mat drawn = Draw(result, picture, frame, camera);
+    if (video_) video_->Add(drawn);
+    if (arguments_.overlays) WritePicture(drawn, folder_ / (result.id + "_overlay.jpg"));
+  }
+
+ private:
+  cv::Mat Draw(const SkylineFrameResult& result,
+               const cv::Mat& picture,
+               const SkylineFrame& frame,
+               const PinholeCamera& camera) const {
+    Overlay overlay;
+    overlay.layers.push_back(SkylineLayer(frame.skyline));
+    if (input_.scene && result.start) {
+      OverlayLayer before = ModelSkylineLayer(*input_.scene, camera, frame.start);
+      before.name = "model skyline by the sensors";
+      before.color = {150, 150, 150};
+      overlay.layers.push_back(std::move(before));
+    }
+    if (input_.scene && frame.match.pose) {
+      OverlayLayer after = ModelSkylineLayer(*input_.scene, camera, *frame.match.pose);
+      after.name = "model skyline after the match";
+      overlay.layers.push_back(std::move(after));
+    }
+    overlay.caption = result.id + ": " + result.status;
+    return DrawOverlay(picture, overlay, OverlayDrawOptions{});
+  }
+
+  const SkylineArguments& arguments_;
+  const fs::path folder_;
+  const SequenceInput& input_;
+  std::unique_ptr<OverlayVideo> video_;
+};
+
+// Extraction alone, for frames without a model or a start.
+SkylineFrame ExtractOnly(const cv::Mat& picture, const SkylineTrackOptions& options) {
+  SkylineFrame frame;
+  frame.skyline = options.extractor == "canny" ? ExtractCannySkyline(picture, options.canny)
+                                               : ExtractSkyline(picture, options.skyline);
+  return frame;
+}
+
+// The frame's picture as its camera sees it without distortion. Empty: missing.
+cv::Mat ReadPicture(SequenceInput& input, std::size_t index) {
+  const cv::Mat picture = input.source->Read(index);
+  const SequenceFrame& frame = input.frames[index];
+  if (picture.empty() || !frame.camera) return picture;
+  if (picture.cols != frame.camera->width || picture.rows != frame.camera->height) {
+    throw InputError(frame.id,
+                     "",
+                     std::to_string(picture.cols) + " x " + std::to_string(picture.rows) + " px",
+                     "the camera's " + std::to_string(frame.camera->width) + " x " +
+                         std::to_string(frame.camera->height) + " px");
+  }
+  return UndistortImage(picture, *frame.camera);
+}
+
+SkylineFrameResult ResultOf(const SkylineFrame& frame, const SequenceFrame& known,
+                            const Eigen::Vector3d& origin) {
+  const auto to_world = [&](Pose pose) {
+    pose.center_in_world += origin;
+    return pose;
+  };
+  SkylineFrameResult result;
+  result.status = NameOf(frame.match.status);
+  result.reason = frame.match.reason;
+  result.before_px = frame.match.distance_before_px;
+  result.after_px = frame.match.distance_after_px;
+  result.start = known.start;
+  if (frame.match.pose) result.pose = to_world(*frame.match.pose);
+  result.times = frame.times;
+  return result;
+}
+
+std::vector<SkylineFrameResult> Track(SequenceInput& input,
+                                      const SkylineArguments& arguments,
+                                      const fs::path& folder,
+                                      const Context& context) {
+  std::optional<SkylineTracker> tracker;
+  if (input.scene) tracker.emplace(*input.scene, arguments.track);
+  Writer writer(arguments, folder, input);
+  Progress progress(context, "Matching", input.frames.size(), "frames");
+  std::vector<SkylineFrameResult> results;
+  for (std::size_t i = 0; i < input.frames.size(); ++i) {
+    const SequenceFrame& known = input.frames[i];
+    const cv::Mat picture = ReadPicture(input, i);
+    SkylineFrameResult result;
+    if (picture.empty()) {
+      result.status = "missing_picture";
+      result.reason = "the picture is missing or cannot be read";
+    } else {
+      SkylineFrame frame;
+      PinholeCamera camera;
+      if (tracker && known.camera && known.start) {
+        camera = known.camera->Pinhole();
+        Pose start = *known.start;
+        start.center_in_world -= input.model->origin_in_world;
+        frame = tracker->Track(picture, camera, start);
+        result = ResultOf(frame, known, input.model->origin_in_world);
+      } else {
+        frame = ExtractOnly(picture, arguments.track);
+        result.status = tracker ? "missing_sensors" : "extracted";
+        result.reason = !tracker ? "" : known.camera ? known.missing : "no camera";
+      }
+      result.id = known.id;
+      writer.Add(result, picture, frame, camera);
+    }
+    result.id = known.id;
+    result.truth = known.truth;
+    results.push_back(std::move(result));
+    progress.Advance();
+  }
+  return results;
+}
+
+void Report(const SkylineSummary& s, const std::string& out, const Context& context) {
+  if (context.json) {
+    nlohmann::ordered_json json{{"frames", s.frames},
+                                {"matched", s.matched},
+                                {"l1_before_px", s.before_px},
+                                {"l1_after_px", s.after_px},
+                                {"extract_ms", s.times.extract_ms},
+                                {"clean_ms", s.times.clean_ms},
+                                {"match_ms", s.times.match_ms}};
+    if (s.with_truth > 0) {
+      json["start_heading_error_deg"] = s.start_heading_deg;
+      json["heading_error_deg"] = s.heading_deg;
+      json["tilt_error_deg"] = s.tilt_deg;
+    }
+    context.Print(json.dump(2));
+    return;
+  }
+  char line[256];
+  std::snprintf(line, sizeof line, "%zu of %zu frames matched, results in %s", s.matched, s.frames,
+                out.c_str());
+  context.Print(line);
+  if (s.matched == 0) return;
+  std::snprintf(line, sizeof line,
+                "L1 %.1f px -> %.1f px (at 640 px); extraction %.1f ms, clean-up %.1f ms, match %.1f ms",
+                s.before_px, s.after_px, s.times.extract_ms, s.times.clean_ms, s.times.match_ms);
+  context.Print(line);
+  if (s.with_truth == 0) return;
+  std::snprintf(line, sizeof line, "heading error %.2f deg -> %.2f deg, tilt error %.2f deg",
+                s.start_heading_deg, s.heading_deg, s.tilt_deg);
+  context.Print(line);
+}
+
+int RunSkyline(SkylineArguments& arguments, const Context& context) {
+  ApplyConfig(arguments.config, [&](OptionVisitor& v) { arguments.Visit(v); });
+  arguments.track.Validate();
+  arguments.sensors.Validate();
+  if (!arguments.video.empty() && fs::path(arguments.video).extension() != ".mp4") {
+    throw InputError("--video", "", '"' + arguments.video + '"', "a name ending in .mp4");
+  }
+  const fs::path out = fs::absolute(arguments.out).lexically_normal();
+  std::error_code error;
+  if (fs::exists(out, error)) {
+    throw InputError("--out", "", out.string() + ", which exists", "a new folder");
+  }
+  const std::unique_ptr<SequenceInput> input =
+      ReadSequence(arguments.sequence, arguments.sensors, context.threads);
+  for (const std::string& warning : input->warnings) context.Warn(warning);
+
+  const fs::path temporary = TemporaryBeside(out);
+  fs::create_directory(temporary);
+  const std::vector<SkylineFrameResult> results = Track(*input, arguments, temporary, context);
+  WriteFileAtomically(temporary / "frames.csv", SkylineFramesCsv(results));
+  CommitFile(temporary, out);
+
+  const SkylineSummary summary = Summarize(results);
+  Report(summary, arguments.out, context);
+  return input->scene && summary.matched == 0 ? kExitAbstained : kExitOk;
+}
+
+}  // namespace
+
+void AddSkylineCommand(CLI::App& app, Context& context) {
+  auto arguments = std::make_shared<SkylineArguments>();
+  CLI::App* command = AddCommand(
+      app,
+      context,
+      {"skyline",
+       "Corrects the poses of frames by matching the skyline; without a model, extracts it.",
+       "ridgeline skyline --dataset walk/dataset.json --sensors walk/sensors.csv --out poses\n"
+       "ridgeline skyline --frames walk.mp4 --model city.gml --dtm dtm.tif --camera cam.json \\\n"
+       "    --sensors walk.csv --set match.method=2x2d --out poses --video overlay.mp4"},
+      [arguments](Context& c) { return RunSkyline(*arguments, c); });
+  AddSequenceOptions(*command, arguments->sequence);
+  command->add_option("--out", arguments->out, "Folder for frames.csv and the rest")
+      ->required()
+      ->type_name("DIR");
+  command->add_option("--video", arguments->video, "Name of an overlay video in it (.mp4)");
+  command->add_flag("--overlays", arguments->overlays, "An overlay picture per frame too");
+  command->add_flag("--columns", arguments->columns, "The skyline of each frame too, as CSV");
+  AddConfigOptions(*command, arguments->config);
+}
+
+}  // namespace ridgeline
