@@ -44,6 +44,8 @@ struct Leaf {
 
 // Of degenerate triangles and unused places: nothing lies so deep.
 constexpr float kNeverHides = 1e9f;
+// Height of a degenerate triangle [m].
+constexpr double kThinnest = 5e-4;
 
 Float4 Abs(Float4 v) { return Max(v, -v); }
 Vec3x4 Splat3(const Eigen::Vector3f& v) { return {Splat(v.x()), Splat(v.y()), Splat(v.z())}; }
@@ -244,8 +246,10 @@ Leaf MakeLeaf(const BoxTree::Leaf& source, const std::vector<OccluderTriangle>& 
     const Eigen::Vector3d normal =
         (t.b - t.a).cast<double>().cross((t.c - t.a).cast<double>());
     const double length = normal.norm();
-    // Zero area, to a millimetre squared: nothing can hide behind it.
-    if (length <= 1e-6) continue;
+    const float longest = std::sqrt(std::max({(t.b - t.a).squaredNorm(), (t.c - t.b).squaredNorm(),
+                                              (t.a - t.c).squaredNorm()}));
+    // Thinner than the rounding of floats some kilometres from the origin: its plane means nothing.
+    if (length <= kThinnest * longest) continue;
     SetLane(leaf.normal, lane, (normal / length).cast<float>());
     leaf.tolerance[lane] = t.tolerance_m;
   }

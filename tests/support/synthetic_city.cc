@@ -28,6 +28,7 @@ std::uint32_t VertexAt(CityModel& model, const Eigen::Vector3d& point, std::size
 
 std::uint32_t CityBuilder::AddBuilding(const std::string& id) {
   model_.buildings.push_back({id, ""});
+  first_vertex_of_building_.push_back(model_.vertices.size());
   return static_cast<std::uint32_t>(model_.buildings.size() - 1);
 }
 
@@ -35,8 +36,8 @@ std::uint32_t CityBuilder::AddSurface(std::uint32_t building,
                                       SurfaceClass surface_class,
                                       const std::vector<Eigen::Vector3d>& ring) {
   const auto surface = static_cast<std::uint32_t>(model_.surfaces.size());
-  // Vertices are shared within the building: those of the last surfaces.
-  const std::size_t recent = model_.vertices.size() > 64 ? model_.vertices.size() - 64 : 0;
+  // Vertices are shared within a building: among those of its surfaces.
+  const std::size_t recent = first_vertex_of_building_[building];
   std::vector<std::uint32_t> indices;
   for (const Eigen::Vector3d& point : ring) indices.push_back(VertexAt(model_, point, recent));
   const Eigen::Vector3d normal =

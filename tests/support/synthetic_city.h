@@ -28,7 +28,8 @@ class CityBuilder {
   std::uint32_t AddBuilding(const std::string& id);
   // A closed, oriented house as a building of its own.
   void AddHouse(const House& house);
-  // A plane polygon, counter-clockwise from outside, convex; vertices at equal places are one.
+  // A plane polygon, counter-clockwise from outside, convex. Vertices at equal places are one within
+  // the present building.
   std::uint32_t AddSurface(std::uint32_t building,
                            SurfaceClass surface_class,
                            const std::vector<Eigen::Vector3d>& ring);
@@ -39,6 +40,7 @@ class CityBuilder {
  private:
   CityModel model_;
   std::vector<std::vector<std::uint32_t>> rings_;  // per surface
+  std::vector<std::size_t> first_vertex_of_building_;
 };
 
 CityModel MakeCity(const std::vector<House>& houses);
