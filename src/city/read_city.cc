@@ -140,21 +140,29 @@ void CityOptions::Validate() const {
   CheckRange("threads", threads, 0, 4096);
 }
 
-CityModel ReadCity(const std::vector<fs::path>& paths, const CityOptions& options) {
+ProjectedSources ReadProjectedSources(const std::vector<fs::path>& paths,
+                                      const CityOptions& options) {
   options.Validate();
   const std::vector<fs::path> files = ListFiles(paths);
   if (files.empty()) throw InputError("--model", "", "no file", "one or more model files");
-  std::vector<SourceModel> sources(files.size());
-  ParallelFor(
-      files.size(), options.threads, [&](std::size_t i) { sources[i] = ReadSource(files[i]); });
-  const Crs crs = ProjectSources(sources, options);
-  CityModel model = BuildModel(sources, crs, options);
+  ProjectedSources result;
+  result.sources.resize(files.size());
+  ParallelFor(files.size(), options.threads, [&](std::size_t i) {
+    result.sources[i] = ReadSource(files[i]);
+  });
+  result.crs = ProjectSources(result.sources, options);
+  return result;
+}
+
+CityModel ReadCity(const std::vector<fs::path>& paths, const CityOptions& options) {
+  ProjectedSources projected = ReadProjectedSources(paths, options);
+  CityModel model = BuildModel(projected.sources, projected.crs, options);
   if (model.triangles.empty()) {
     std::string found = "no building with a volume";
     for (const std::string& warning : model.warnings) found += "; " + warning;
     throw InputError(paths.front().string(), "", found, "buildings of LoD1 to LoD4");
   }
-  if (crs.horizontal_epsg == 0) {
+  if (projected.crs.horizontal_epsg == 0) {
     model.warnings.push_back(
         "no reference system in the model: its coordinates are taken as east, north, height in "
         "metres (--model-crs EPSG:... says which)");
