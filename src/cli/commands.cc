@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/commands.h"
 
+#include "cli/info.h"
 #include "cli/render.h"
 #include "cli/synth.h"
 #include "cli/version.h"
@@ -12,6 +13,7 @@ using AddFunction = void (*)(CLI::App&, Context&);
 
 // One line per command, in the order of --help.
 constexpr AddFunction kCommands[] = {
+    AddInfoCommand,
     AddRenderCommand,
     AddSynthCommand,
     AddVersionCommand,
