@@ -24,6 +24,7 @@ struct Settings {
   int gp_budget = 1000;
   double within_m = 2.0;
   double within_deg = 2.0;
+  SamplerOptions options;
 };
 
 // Metres by their Euclidean distance, degrees one by one; the unit is in the parameter's name.
@@ -64,7 +65,7 @@ void RunOnce(const std::string& name,
              const Settings& settings,
              std::uint64_t seed,
              Row& row) {
-  SamplerOptions options;
+  SamplerOptions options = settings.options;
   options.name = name;
   SearchProblem problem;
   problem.box = landscape.box();
@@ -131,8 +132,14 @@ int main(int argc, char** argv) {
   app.add_option("--gp-budget", settings.gp_budget, "trials of the slow gp sampler at most");
   app.add_option("--within-m", settings.within_m);
   app.add_option("--within-deg", settings.within_deg);
+  std::vector<std::string> assignments;
+  app.add_option("--set", assignments, "sampler options, e.g. multi_start.descents=2");
   CLI11_PARSE(app, argc, argv);
   try {
+    for (const std::string& assignment : assignments) {
+      ridgeline::SetOption(assignment,
+                           [&](ridgeline::OptionVisitor& v) { settings.options.Visit(v); });
+    }
     ridgeline::PrintTable(settings);
   } catch (const ridgeline::InputError& error) {
     std::fprintf(stderr, "%s\n", error.what());

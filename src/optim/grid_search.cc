@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "optim/places.h"
 
 namespace ridgeline {
 namespace {
@@ -13,11 +14,6 @@ namespace {
 constexpr std::size_t kFullLattice = 4;
 constexpr std::size_t kCorners = 10;
 constexpr double kMostPoints = 1.1e7;
-
-struct Place {
-  UnitPoint point;
-  double energy = 0.0;
-};
 
 void RequireFewEnough(std::size_t per_axis, std::size_t d) {
   if (std::pow(static_cast<double>(per_axis), static_cast<double>(d)) <= kMostPoints) return;
@@ -75,42 +71,13 @@ std::vector<std::vector<int>> Neighbourhood(std::size_t d) {
   return offsets;
 }
 
-bool Apart(const UnitPoint& a,
-           const UnitPoint& b,
-           const std::vector<bool>& periodic,
-           double distance) {
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    const double way = std::abs(a[k] - b[k]);
-    if ((periodic[k] ? std::min(way, 1.0 - way) : way) > distance) return true;
-  }
-  return false;
-}
-
-// The best places, none within `distance` of a better one.
-std::vector<Place> BestApart(std::vector<Place> places,
-                             std::size_t count,
-                             double distance,
-                             const std::vector<bool>& periodic) {
-  std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
-    return a.energy < b.energy;
+bool AnyFinite(const std::vector<Vertex>& places) {
+  return std::any_of(places.begin(), places.end(), [](const Vertex& place) {
+    return std::isfinite(place.energy);
   });
-  std::vector<Place> kept;
-  for (const Place& place : places) {
-    if (kept.size() == count) break;
-    const bool apart = std::all_of(kept.begin(), kept.end(), [&](const Place& other) {
-      return Apart(place.point, other.point, periodic, distance);
-    });
-    if (apart && std::isfinite(place.energy)) kept.push_back(place);
-  }
-  return kept;
 }
 
-bool AnyFinite(const std::vector<Place>& places) {
-  return std::any_of(
-      places.begin(), places.end(), [](const Place& place) { return std::isfinite(place.energy); });
-}
-
-void Append(const Batch& batch, std::vector<Place>& places) {
+void Append(const Batch& batch, std::vector<Vertex>& places) {
   for (std::size_t i = 0; i < batch.points.size(); ++i) {
     places.push_back({batch.points[i], batch.energies[i]});
   }
@@ -124,7 +91,7 @@ SearchRoutine GridSearch(StrategyContext context, GridOptions options) {
   const double share = 1.0 / static_cast<double>(context.dimension);
   std::size_t per_axis = static_cast<std::size_t>(
       std::max(2.0, std::floor(std::pow(options.coarse_points, share) + 1e-9)));
-  std::vector<Place> places;
+  std::vector<Vertex> places;
   for (;; per_axis *= 2) {
     RequireFewEnough(per_axis, context.dimension);
     Batch coarse;
@@ -139,12 +106,12 @@ SearchRoutine GridSearch(StrategyContext context, GridOptions options) {
   double spacing = 1.0 / static_cast<double>(per_axis);
   std::size_t keep = static_cast<std::size_t>(options.keep);
   while (spacing > options.finest) {
-    const std::vector<Place> centers = BestApart(places, keep, 1.01 * spacing, context.periodic);
+    const std::vector<Vertex> centers = BestApart(places, keep, 1.01 * spacing, context.periodic);
     if (centers.empty()) co_return;
     spacing /= 3.0;
     keep = std::max<std::size_t>(1, keep / 2);
     places = centers;
-    for (const Place& center : centers) {
+    for (const Vertex& center : centers) {
       Batch around;
       for (const std::vector<int>& offset : offsets) {
         UnitPoint point = center.point;

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "optim/gp_strategy.h"
 #include "optim/grid_search.h"
+#include "optim/multi_start.h"
 #include "optim/nelder_mead.h"
 #include "optim/population.h"
 #include "optim/random_strategy.h"
@@ -125,6 +126,7 @@ std::unique_ptr<Strategy> MakeOther(const SamplerOptions& options, const Strateg
   if (options.name == "random") return std::make_unique<RandomStrategy>(context);
   if (options.name == "sobol") return std::make_unique<SobolStrategy>(context);
   if (options.name == "gp") return std::make_unique<GpStrategy>(context, options.gp);
+  if (options.name == "multi_start") return MakeRoutine(MultiStart(context, options.multi_start));
   if (options.name == "grid") return MakeRoutine(GridSearch(context, options.grid));
   const bool joint = options.name == "tpe_multivariate";
   return std::make_unique<TpeStrategy>(

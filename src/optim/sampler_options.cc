@@ -81,6 +81,15 @@ void ValidateGrid(const GridOptions& grid) {
   Require(grid.finest > 0.0 && grid.finest < 1.0, "grid.finest", grid.finest, "a value in (0, 1)");
 }
 
+void ValidateMultiStart(const MultiStartOptions& options) {
+  Require(options.first_points >= 4, "multi_start.first_points", options.first_points, ">= 4");
+  Require(options.growth >= 1.0 && options.growth <= 10.0,
+          "multi_start.growth",
+          options.growth,
+          "a value in [1, 10]");
+  Require(options.descents >= 1, "multi_start.descents", options.descents, ">= 1");
+}
+
 }  // namespace
 
 void TpeOptions::Visit(OptionVisitor& v) {
@@ -128,6 +137,12 @@ void GridOptions::Visit(OptionVisitor& v) {
   v.Field("finest", finest);
 }
 
+void MultiStartOptions::Visit(OptionVisitor& v) {
+  v.Field("first_points", first_points);
+  v.Field("growth", growth);
+  v.Field("descents", descents);
+}
+
 void SamplerOptions::Visit(OptionVisitor& v) {
   v.Field("name", name);
   v.Group("tpe", [this](OptionVisitor& g) { tpe.Visit(g); });
@@ -136,6 +151,7 @@ void SamplerOptions::Visit(OptionVisitor& v) {
   v.Group("de", [this](OptionVisitor& g) { de.Visit(g); });
   v.Group("nelder_mead", [this](OptionVisitor& g) { nelder_mead.Visit(g); });
   v.Group("grid", [this](OptionVisitor& g) { grid.Visit(g); });
+  v.Group("multi_start", [this](OptionVisitor& g) { multi_start.Visit(g); });
 }
 
 void SamplerOptions::Validate() const {
@@ -151,11 +167,20 @@ void SamplerOptions::Validate() const {
   ValidatePopulations(cmaes, de);
   ValidateNelderMead(nelder_mead);
   ValidateGrid(grid);
+  ValidateMultiStart(multi_start);
 }
 
 const std::vector<std::string>& SamplerNames() {
-  static const std::vector<std::string> names = {
-      "random", "sobol", "tpe", "tpe_multivariate", "gp", "cmaes", "de", "nelder_mead", "grid"};
+  static const std::vector<std::string> names = {"random",
+                                                 "sobol",
+                                                 "tpe",
+                                                 "tpe_multivariate",
+                                                 "gp",
+                                                 "cmaes",
+                                                 "de",
+                                                 "nelder_mead",
+                                                 "grid",
+                                                 "multi_start"};
   return names;
 }
 

@@ -93,6 +93,17 @@ struct GridOptions {
   void Visit(OptionVisitor& v);
 };
 
+// Sobol points and downhill simplices in turn (see multi_start.h).
+struct MultiStartOptions {
+  // Sobol points of the first round, >= 4; each further round has `growth` (>= 1) times as many.
+  int first_points = 32;
+  double growth = 1.5;
+  // Simplices started per round, >= 1.
+  int descents = 3;
+
+  void Visit(OptionVisitor& v);
+};
+
 // Which sampler, and how it is set. Each sampler reads its own group only.
 struct SamplerOptions {
   // One of SamplerNames().
@@ -103,6 +114,7 @@ struct SamplerOptions {
   DifferentialEvolutionOptions de;
   NelderMeadOptions nelder_mead;
   GridOptions grid;
+  MultiStartOptions multi_start;
 
   void Visit(OptionVisitor& v);
   // Throws InputError naming the field, e.g. "sampler.tpe.candidates".
