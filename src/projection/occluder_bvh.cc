@@ -35,16 +35,16 @@ struct Node {
   std::array<std::int32_t, 4> children;
 };
 
-// Four triangles.
+// Four occluders.
 struct Leaf {
-  Vec3x4 a, b, c;
-  Vec3x4 normal;  // unit; zero for a degenerate triangle and an unused place
+  Vec3x4 a, b, c, d;
+  Vec3x4 normal;  // unit; zero for a degenerate occluder and an unused place
   Float4 tolerance;
 };
 
-// Of degenerate triangles and unused places: nothing lies so deep.
+// Of degenerate occluders and unused places: nothing lies so deep.
 constexpr float kNeverHides = 1e9f;
-// Height of a degenerate triangle [m].
+// Height of a degenerate occluder [m].
 constexpr double kThinnest = 5e-4;
 
 Float4 Abs(Float4 v) { return Max(v, -v); }
@@ -98,55 +98,54 @@ struct Wedge {
   }
 };
 
-// Keeps the parameters where a value going linearly from `at_a` to `at_b` is >= 0.
-void Clip(Float4 at_a, Float4 at_b, Float4& first, Float4& last) {
-  const Float4 slope = at_b - at_a;
-  const Float4 zero = -at_a / slope;
-  const Float4 none = Splat(-kInfinity);
-  const Float4 all = Splat(kInfinity);
-  first = Max(first, slope > 0.0f ? zero : none);
-  const Float4 flat_last = at_a >= 0.0f ? all : none;
-  last = Min(last, slope < 0.0f ? zero : (slope > 0.0f ? all : flat_last));
-}
+// What a leaf's occluders hide of a segment, one per lane.
+struct Shadows {
+  unsigned some = 0;  // bit k: occluder k hides the part [first[k], last[k]]
+  bool all = false;   // one of them hides all
+  Float4 first{};
+  Float4 last{};
+};
 
-// Whether a triangle of the leaf reaches both sides of a plane through the eye: only such a one can
-// hide a part of a segment in that plane.
-bool CrossesPlane(const Leaf& leaf, const Vec3x4& eye, const Vec3x4& plane_normal) {
-  const Float4 a = Dot(plane_normal, leaf.a - eye);
-  const Float4 b = Dot(plane_normal, leaf.b - eye);
-  const Float4 c = Dot(plane_normal, leaf.c - eye);
-  const Float4 lowest = Min(Min(a, b), c);
-  const Float4 highest = Max(Max(a, b), c);
-  const simd::Int4 crosses = (lowest <= 0.0f) & (highest >= 0.0f);
-  return simd::Bits(crosses) != 0;
-}
+// Values going linearly from the first to the second end of a segment; hidden is where all are >= 0.
+struct Linear {
+  Float4 at_a, at_b;
+};
 
-// Shadows of a leaf's triangles on the segment a-b; empty where first >= last.
-void Shadows(const Leaf& leaf,
-             const Vec3x4& eye,
-             const Vec3x4& a,
-             const Vec3x4& b,
-             Float4& first,
-             Float4& last) {
+Shadows CastShadows(const Leaf& leaf, const Vec3x4& eye, const Vec3x4& a, const Vec3x4& b) {
   const Vec3x4 va = leaf.a - eye;
-  const Vec3x4 vb = leaf.b - eye;
-  const Vec3x4 vc = leaf.c - eye;
   const Float4 height = Dot(leaf.normal, va);
   const Float4 sign = height > 0.0f ? Splat(1.0f) : Splat(-1.0f);
-  first = Splat(0.0f);
-  last = Splat(1.0f);
-  // Behind the plane, as seen from the eye.
+  std::array<Linear, 5> values;
+  // Behind the plane, as seen from the eye. Most occluders met are the segment's own faces and its
+  // neighbours: not in front of it.
   const Float4 depth = Abs(height) + leaf.tolerance;
-  Clip(sign * Dot(leaf.normal, a) - depth, sign * Dot(leaf.normal, b) - depth, first, last);
-  // Most triangles met are the segment's own and its neighbours: not in front of it.
-  if (simd::Bits(first < last) == 0) return;
-  // Inside the three planes through the eye and the sides.
-  const Vec3x4 ab = Cross(va, vb);
-  const Vec3x4 bc = Cross(vb, vc);
-  const Vec3x4 ca = Cross(vc, va);
-  Clip(sign * Dot(ab, a), sign * Dot(ab, b), first, last);
-  Clip(sign * Dot(bc, a), sign * Dot(bc, b), first, last);
-  Clip(sign * Dot(ca, a), sign * Dot(ca, b), first, last);
+  values[0] = {sign * Dot(leaf.normal, a) - depth, sign * Dot(leaf.normal, b) - depth};
+  Float4 highest = Max(values[0].at_a, values[0].at_b);
+  if (simd::Bits(highest > 0.0f) == 0) return Shadows{};
+  // Inside the planes through the eye and the sides.
+  const Vec3x4 vb = leaf.b - eye;
+  const Vec3x4 vc = leaf.c - eye;
+  const Vec3x4 vd = leaf.d - eye;
+  const std::array<Vec3x4, 4> sides{Cross(va, vb), Cross(vb, vc), Cross(vc, vd), Cross(vd, va)};
+  Float4 lowest = Min(values[0].at_a, values[0].at_b);
+  for (int k = 0; k < 4; ++k) {
+    const Linear value{sign * Dot(sides[k], a), sign * Dot(sides[k], b)};
+    lowest = Min(lowest, Min(value.at_a, value.at_b));
+    highest = Min(highest, Max(value.at_a, value.at_b));
+    values[k + 1] = value;
+  }
+  Shadows shadows;
+  shadows.all = simd::Bits(lowest >= 0.0f) != 0;
+  if (shadows.all || simd::Bits(highest >= 0.0f) == 0) return shadows;
+  shadows.first = Splat(0.0f);
+  shadows.last = Splat(1.0f);
+  for (const Linear& value : values) {
+    const Float4 zero = value.at_a / (value.at_a - value.at_b);
+    shadows.first = Max(shadows.first, value.at_a < 0.0f ? zero : Splat(0.0f));
+    shadows.last = Min(shadows.last, value.at_b < 0.0f ? zero : Splat(1.0f));
+  }
+  shadows.some = simd::Bits((highest >= 0.0f) & (shadows.first < shadows.last));
+  return shadows;
 }
 
 void AddHidden(Interval added, std::vector<Interval>& hidden) {
@@ -197,16 +196,16 @@ struct Turn {
 
 // Boxes fit walls that run along the axes. Of 18 rotations the one with the smallest boxes: streets
 // are often at right angles, seldom to the north.
-Turn TurnToAxes(const std::vector<OccluderTriangle>& triangles) {
+Turn TurnToAxes(const std::vector<Occluder>& occluders) {
   Turn best;
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 18; ++k) {
     const double angle = k * 5.0 * std::numbers::pi / 180.0;
     const Turn turn{static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
     double area = 0.0;
-    for (const OccluderTriangle& t : triangles) {
+    for (const Occluder& o : occluders) {
       Eigen::AlignedBox3f box;
-      box.extend(turn * t.a).extend(turn * t.b).extend(turn * t.c);
+      box.extend(turn * o.a).extend(turn * o.b).extend(turn * o.c).extend(turn * o.d);
       const Eigen::Vector3f size = box.sizes();
       area += size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
     }
@@ -234,24 +233,27 @@ void SetLane(Vec3x4& target, int lane, const Eigen::Vector3f& value) {
   target.z[lane] = value.z();
 }
 
-Leaf MakeLeaf(const BoxTree::Leaf& source, const std::vector<OccluderTriangle>& triangles) {
+Leaf MakeLeaf(const BoxTree::Leaf& source, const std::vector<Occluder>& occluders) {
   Leaf leaf{};
   leaf.tolerance = Splat(kNeverHides);
   for (std::size_t k = 0; k < source.primitives.size(); ++k) {
-    const OccluderTriangle& t = triangles[source.primitives[k]];
+    const Occluder& o = occluders[source.primitives[k]];
     const int lane = static_cast<int>(k);
-    SetLane(leaf.a, lane, t.a);
-    SetLane(leaf.b, lane, t.b);
-    SetLane(leaf.c, lane, t.c);
+    SetLane(leaf.a, lane, o.a);
+    SetLane(leaf.b, lane, o.b);
+    SetLane(leaf.c, lane, o.c);
+    SetLane(leaf.d, lane, o.d);
+    // Twice the area, of a triangle too.
     const Eigen::Vector3d normal =
-        (t.b - t.a).cast<double>().cross((t.c - t.a).cast<double>());
+        (o.c - o.a).cast<double>().cross((o.c == o.d ? o.c - o.b : o.d - o.b).cast<double>());
     const double length = normal.norm();
-    const float longest = std::sqrt(std::max({(t.b - t.a).squaredNorm(), (t.c - t.b).squaredNorm(),
-                                              (t.a - t.c).squaredNorm()}));
+    const float longest =
+        std::sqrt(std::max({(o.b - o.a).squaredNorm(), (o.c - o.b).squaredNorm(),
+                            (o.d - o.c).squaredNorm(), (o.a - o.d).squaredNorm()}));
     // Thinner than the rounding of floats some kilometres from the origin: its plane means nothing.
     if (length <= kThinnest * longest) continue;
     SetLane(leaf.normal, lane, (normal / length).cast<float>());
-    leaf.tolerance[lane] = t.tolerance_m;
+    leaf.tolerance[lane] = o.tolerance_m;
   }
   return leaf;
 }
@@ -273,22 +275,22 @@ Node MakeNode(const BoxTree::Node& source) {
 
 }  // namespace
 
-OccluderBvh::OccluderBvh(std::vector<OccluderTriangle> triangles)
-    : impl_(std::make_unique<Impl>()) {
-  impl_->turn = TurnToAxes(triangles);
-  for (OccluderTriangle& t : triangles) {
-    t = {impl_->turn * t.a, impl_->turn * t.b, impl_->turn * t.c, t.tolerance_m};
-  }
-  std::vector<Eigen::AlignedBox3f> boxes(triangles.size());
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    boxes[i].extend(triangles[i].a).extend(triangles[i].b).extend(triangles[i].c);
+OccluderBvh::OccluderBvh(std::vector<Occluder> occluders) : impl_(std::make_unique<Impl>()) {
+  impl_->turn = TurnToAxes(occluders);
+  std::vector<Eigen::AlignedBox3f> boxes(occluders.size());
+  for (std::size_t i = 0; i < occluders.size(); ++i) {
+    Occluder& o = occluders[i];
+    for (Eigen::Vector3f* corner : {&o.a, &o.b, &o.c, &o.d}) {
+      *corner = impl_->turn * *corner;
+      boxes[i].extend(*corner);
+    }
   }
   const BoxTree tree = BuildBoxTree(boxes, 4);
   impl_->nodes.reserve(tree.nodes.size());
   for (const BoxTree::Node& node : tree.nodes) impl_->nodes.push_back(MakeNode(node));
   impl_->leaves.reserve(tree.leaves.size());
   for (const BoxTree::Leaf& leaf : tree.leaves) {
-    impl_->leaves.push_back(MakeLeaf(leaf, triangles));
+    impl_->leaves.push_back(MakeLeaf(leaf, occluders));
   }
 }
 
@@ -312,24 +314,23 @@ bool OccluderBvh::Hide(const Eigen::Vector3f& eye,
   const Vec3x4 eye4 = Splat3(impl_->turn * eye);
   const Vec3x4 a4 = Splat3(a);
   const Vec3x4 b4 = Splat3(b);
-  const Vec3x4 plane4 = Splat3(normal);
   std::uint32_t& hint = hints[AzimuthRange(a + b, hints.size())];
   std::uint32_t& hint_a = hints[AzimuthRange(a, hints.size())];
   std::uint32_t& hint_b = hints[AzimuthRange(b, hints.size())];
 
   // Returns false when nothing is left of the segment.
   const auto cast_leaf = [&](std::uint32_t index) {
-    Float4 first, last;
-    const Leaf& leaf = impl_->leaves[index];
-    if (!CrossesPlane(leaf, eye4, plane4)) return true;
-    Shadows(leaf, eye4, a4, b4, first, last);
-    unsigned found = simd::Bits(first < last);
-    if (found == 0) return true;
-    for (; found != 0; found &= found - 1) {
+    const Shadows shadows = CastShadows(impl_->leaves[index], eye4, a4, b4);
+    if (shadows.all) {
+      hint = hint_a = hint_b = index;
+      return false;
+    }
+    if (shadows.some == 0) return true;
+    for (unsigned found = shadows.some; found != 0; found &= found - 1) {
       const int k = std::countr_zero(found);
-      AddHidden({first[k], last[k]}, hidden);
-      if (first[k] <= 0.0f) hint_a = index;
-      if (last[k] >= 1.0f) hint_b = index;
+      AddHidden({shadows.first[k], shadows.last[k]}, hidden);
+      if (shadows.first[k] <= 0.0f) hint_a = index;
+      if (shadows.last[k] >= 1.0f) hint_b = index;
     }
     if (HasGap(hidden, min_part)) return true;
     hint = index;

@@ -9,9 +9,10 @@
 
 namespace ridgeline {
 
-struct OccluderTriangle {
-  Eigen::Vector3f a, b, c;  // local frame [m]
-  // A point hides behind the triangle only if it lies deeper than this behind its plane [m]. It keeps
+// A triangle (d = c) or a convex plane quadrangle, its corners in turn; local frame [m].
+struct Occluder {
+  Eigen::Vector3f a, b, c, d;
+  // A point hides behind it only if it lies deeper than this behind its plane [m]. It keeps
   // an edge from hiding behind its own faces and behind coplanar neighbours.
   float tolerance_m = 0.0f;
 };
@@ -22,7 +23,7 @@ struct Interval {
   float last = 0.0f;
 };
 
-// Triangles in a bounding volume hierarchy that answers which parts of a segment are hidden from a
+// Occluders in a bounding volume hierarchy that answers which parts of a segment are hidden from a
 // point. Instead of rays along the segment, the plane triangle between the point and the segment
 // goes down the hierarchy once, near boxes first, and every occluder on the way cuts its shadow out
 // of the segment: exact to rounding, no gap is missed, and a hidden segment ends early.
@@ -32,7 +33,7 @@ class OccluderBvh {
   // saves time and changes no result, so that any state (one per thread) will do.
   using Hints = std::array<std::uint32_t, 256>;
 
-  explicit OccluderBvh(std::vector<OccluderTriangle> triangles);
+  explicit OccluderBvh(std::vector<Occluder> occluders);
   ~OccluderBvh();
 
   // Adds the hidden parts of the segment a-b (relative to the eye) to `hidden`, which stays disjoint

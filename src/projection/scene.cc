@@ -11,6 +11,7 @@
 #include "projection/horizon.h"
 #include "projection/mesh_edges.h"
 #include "projection/occluder_bvh.h"
+#include "projection/occluders.h"
 #include "projection/ray_scene.h"
 #include "projection/terrain_mesh.h"
 
@@ -22,32 +23,6 @@ constexpr double kMilli = 1e-3;
 void Require(bool ok, const std::string& field, double value, const std::string& expected) {
   if (ok) return;
   throw InputError("", "projection." + field, std::to_string(value), expected);
-}
-
-std::vector<OccluderTriangle> ModelOccluders(const CityModel& model, double tolerance_m) {
-  std::vector<OccluderTriangle> occluders;
-  occluders.reserve(model.triangles.size());
-  const auto vertex = [&](std::uint32_t i) -> Eigen::Vector3f {
-    return model.vertices[i].cast<float>();
-  };
-  for (const Triangle& triangle : model.triangles) {
-    const auto& v = triangle.vertices;
-    occluders.push_back(
-        {vertex(v[0]), vertex(v[1]), vertex(v[2]), static_cast<float>(tolerance_m)});
-  }
-  return occluders;
-}
-
-std::vector<OccluderTriangle> TerrainOccluders(const TerrainMesh& terrain, double lowered_by_m) {
-  std::vector<OccluderTriangle> occluders;
-  occluders.reserve(terrain.triangles.size());
-  const auto vertex = [&](std::uint32_t i) -> Eigen::Vector3f {
-    return terrain.vertices[i] - Eigen::Vector3f(0.0f, 0.0f, static_cast<float>(lowered_by_m));
-  };
-  for (const auto& v : terrain.triangles) {
-    occluders.push_back({vertex(v[0]), vertex(v[1]), vertex(v[2]), 0.0f});
-  }
-  return occluders;
 }
 
 float AngleBetween(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
@@ -90,7 +65,7 @@ struct Scene::Impl {
        const ProjectionOptions& projection)
       : model(city),
         options(projection),
-        buildings(ModelOccluders(city, projection.surface_tolerance_m)),
+        buildings(ModelOccluders(city, mesh, projection.surface_tolerance_m)),
         ground(TerrainOccluders(terrain, projection.terrain_tolerance_m)),
         rays(city, terrain),
         edges(city, mesh),
