@@ -112,6 +112,7 @@ void FaceCollector::AddFace(const SourceMember& member,
     if (!usable) source_->tally.Add("degenerate holes dropped", building.id);
   }
   face.ring_count = static_cast<std::uint32_t>(set_.rings.size()) - face.first_ring;
+  if (face.ring_count > 1) PutOuterRingFirst(face, building.id);
   const char* problem = nullptr;
   if (face.ring_count == 0 || !Measure(face)) {
     problem = "polygons without area dropped";
@@ -165,6 +166,24 @@ bool FaceCollector::AddRing(const SourceRing& ring, bool reversed) {
   return true;
 }
 
+// Puts the largest ring first: files exist whose outer ring and hole have changed places.
+void FaceCollector::PutOuterRingFirst(const Face& face, const std::string& building_id) {
+  std::uint32_t largest = face.first_ring;
+  for (std::uint32_t r = face.first_ring + 1; r < face.first_ring + face.ring_count; ++r) {
+    if (NewellVector(r).norm() > NewellVector(largest).norm()) largest = r;
+  }
+  if (largest == face.first_ring) return;
+  source_->tally.Add("polygons whose hole was larger than their outline, exchanged", building_id);
+  const bool same_way = NewellVector(largest).dot(NewellVector(face.first_ring)) > 0.0;
+  std::swap(set_.rings[largest], set_.rings[face.first_ring]);
+  if (!same_way) ReverseRing(face.first_ring);
+}
+
+void FaceCollector::ReverseRing(std::uint32_t ring) {
+  const auto begin = set_.corners.begin() + set_.rings[ring].first;
+  std::reverse(begin, begin + set_.rings[ring].count);
+}
+
 // Normal, area and centroid; turns holes against the outer ring. False without area.
 bool FaceCollector::Measure(Face& face) {
   const Eigen::Vector3d outer = NewellVector(face.first_ring);
@@ -174,10 +193,7 @@ bool FaceCollector::Measure(Face& face) {
   face.area = outer_area;
   for (std::uint32_t r = face.first_ring + 1; r < face.first_ring + face.ring_count; ++r) {
     const double hole = 0.5 * NewellVector(r).dot(face.normal);
-    if (hole > 0.0) {
-      const auto begin = set_.corners.begin() + set_.rings[r].first;
-      std::reverse(begin, begin + set_.rings[r].count);
-    }
+    if (hole > 0.0) ReverseRing(r);
     face.area -= std::abs(hole);
   }
   face.area = std::max(face.area, kMinFaceArea);
@@ -198,9 +214,11 @@ Eigen::Vector3d FaceCollector::NewellVector(std::uint32_t ring) const {
 }
 
 std::vector<std::uint32_t> FaceCollector::SortedCorners(const Face& face) const {
-  const FaceRing& last = set_.rings[face.first_ring + face.ring_count - 1];
-  std::vector<std::uint32_t> corners(set_.corners.begin() + set_.rings[face.first_ring].first,
-                                     set_.corners.begin() + last.first + last.count);
+  std::vector<std::uint32_t> corners;
+  for (std::uint32_t r = face.first_ring; r < face.first_ring + face.ring_count; ++r) {
+    const std::span<const std::uint32_t> ring = set_.Ring(r);
+    corners.insert(corners.end(), ring.begin(), ring.end());
+  }
   std::sort(corners.begin(), corners.end());
   return corners;
 }

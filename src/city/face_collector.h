@@ -47,6 +47,8 @@ class FaceCollector {
   void AddBuilding(const SourceBuilding& building, std::uint32_t index, int lod);
   void AddFace(const SourceMember& member, const SourceBuilding& building, std::uint32_t index);
   bool AddRing(const SourceRing& ring, bool reversed);
+  void PutOuterRingFirst(const Face& face, const std::string& building_id);
+  void ReverseRing(std::uint32_t ring);
   bool Measure(Face& face);
   Eigen::Vector3d NewellVector(std::uint32_t ring) const;
   std::vector<std::uint32_t> SortedCorners(const Face& face) const;

@@ -139,6 +139,17 @@ TEST(ReadCityGml, HoleIsCutOut) {
   EXPECT_EQ(model.feature_edges.size(), 12u);
 }
 
+TEST(ReadCityGml, OutlineAndHoleThatChangedPlacesAreExchanged) {
+  const auto p = [](double x, double y) { return Vector3d(kCorner + Vector3d(x, y, 5)); };
+  const Ring outer{p(0, 0), p(10, 0), p(10, 10), p(0, 10)};
+  const Ring hole{p(4, 4), p(6, 4), p(6, 6), p(4, 6)};
+  const CityModel model =
+      ReadGml(GmlDocument(GmlBuilding("a", GmlBoundary("RoofSurface", GmlPolygon(hole, {outer})))));
+  EXPECT_NEAR(Area(model), 96.0, 1e-9);
+  EXPECT_GT(model.surfaces[0].normal.z(), 0.9f);
+  EXPECT_TRUE(Warns(model, "hole was larger than their outline, exchanged (a)"));
+}
+
 TEST(ReadCityGml, BuildingPartsAreBuildingsWithAParent) {
   const std::string part = "<bldg:consistsOfBuildingPart><bldg:BuildingPart gml:id=\"p\">" +
                            BoxSolid(kCorner, kCorner + kSize) +
@@ -351,6 +362,15 @@ TEST(ReadCityGml, SeveralFilesMakeOneModel) {
   EXPECT_EQ(model.surfaces.size(), 12u);
   EXPECT_TRUE(Warns(model, "1 buildings that an earlier file holds too, taken once (a)"));
   EXPECT_NEAR(Volume(model), 2.0 * kSize.prod(), 1e-6);
+}
+
+TEST(ReadCityGml, EqualIdsInDifferentPlacesAreTwoBuildings) {
+  const TestFolder folder;
+  const auto a = folder.Write("a.gml", GmlDocument(GmlBox("1", kCorner, kCorner + kSize)));
+  const Vector3d aside(100, 0, 0);
+  const auto b =
+      folder.Write("b.gml", GmlDocument(GmlBox("1", kCorner + aside, kCorner + aside + kSize)));
+  EXPECT_EQ(ReadCity({a, b}, {}).buildings.size(), 2u);
 }
 
 TEST(ReadCityGml, ModelMovedFarAwayKeepsItsShape) {
