@@ -13,6 +13,7 @@ namespace ridgeline {
 namespace {
 
 constexpr int kClusterSize = 8;
+constexpr float kShortest = 1e-3f;  // edge that is looked at [m]
 // A face looks away only if the eye lies this far behind its plane [m]: model faces are not planar
 // to the centimetre.
 constexpr float kFacingTolerance = 0.05f;
@@ -229,41 +230,13 @@ std::uint32_t EdgeSet::AddCluster(const BoxTree& tree,
   return index;
 }
 
-void EdgeSet::Candidates(const Eigen::Vector3f& eye,
-                         const SectorTest& sector,
-                         float max_distance_m,
-                         float min_angle,
-                         std::vector<std::uint32_t>& candidates) const {
-  candidates.clear();
-  const auto add_if_seen = [&](std::uint32_t i) {
-    const SceneEdge& edge = edges_[i];
-    if (edge.length < 1e-3f) return;
-    if (edge.weak && !IsSilhouette(edge, eye)) return;
-    const Facing facing = FacingOf(edge, eye);
-    if (edge.closed && !facing.front0 && !facing.front1) return;
-    if (edge.closed && edge.known && edge.concave && !(facing.front0 && facing.front1)) return;
-    const Eigen::Vector3f a = edge.a - eye;
-    const Eigen::Vector3f b = edge.b - eye;
-    if (!sector.MayContainSegment(a, b)) return;
-    const Eigen::Vector3f along = b - a;
-    const float t = std::clamp(-a.dot(along) / along.squaredNorm(), 0.0f, 1.0f);
-    const float distance = (a + t * along).norm();
-    if (distance > max_distance_m || edge.length < min_angle * distance) return;
-    candidates.push_back(i);
-  };
-  for (std::uint32_t i = 0; i < clusters_.size();) {
-    const Cluster& cluster = clusters_[i];
-    const Eigen::Vector3f center = cluster.box.center() - eye;
-    const Eigen::Vector3f extent = 0.5f * cluster.box.sizes();
-    const float distance = (center.cwiseAbs() - extent).cwiseMax(0.0f).norm();
-    if (distance > max_distance_m || cluster.longest < min_angle * distance ||
-        !sector.MayContainBox(center, extent)) {
-      i = cluster.skip;
-      continue;
-    }
-    for (std::uint32_t k = 0; k < cluster.count; ++k) add_if_seen(cluster.first + k);
-    ++i;
-  }
+bool EdgeSet::MayFace(const SceneEdge& edge, const Eigen::Vector3f& eye) {
+  if (edge.length < kShortest || (edge.weak && !IsSilhouette(edge, eye))) return false;
+  if (!edge.closed) return true;
+  const Facing facing = FacingOf(edge, eye);
+  // The sight of a concave fold lies between its two faces.
+  return edge.known && edge.concave ? facing.front0 && facing.front1
+                                    : facing.front0 || facing.front1;
 }
 
 }  // namespace ridgeline

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -42,19 +43,26 @@ class EdgeSet {
  public:
   EdgeSet(const CityModel& model, const MeshEdges& mesh);
 
-  // Edges that may be seen: within the distance and the sector, long enough at their distance
-  // [rad], and not looking away. In the order of the hierarchy: neighbours follow each other.
-  void Candidates(const Eigen::Vector3f& eye,
-                  const SectorTest& sector,
-                  float max_distance_m,
-                  float min_angle,
-                  std::vector<std::uint32_t>& candidates) const;
+  // Calls visit(edge, a, b, distance) for edges that may be seen, with their ends relative to the eye
+  // and their distance from it [m]: within the distance and the sector, long enough at their
+  // distance [rad], and not looking away. Clusters whose box (centre relative to the eye, half
+  // sizes) is_hidden(center, extent) says to be hidden are skipped. In the order of the hierarchy:
+  // neighbours follow each other.
+  template <typename IsHidden, typename Visit>
+  void ForCandidates(const Eigen::Vector3f& eye,
+                     const SectorTest& sector,
+                     float max_distance_m,
+                     float min_angle,
+                     const IsHidden& is_hidden,
+                     const Visit& visit) const;
 
   const std::vector<SceneEdge>& edges() const { return edges_; }
   // Folds below the model's least angle; they follow the feature edges in SceneEdge::index.
   const std::vector<FeatureEdge>& weak_folds() const { return weak_folds_; }
 
  private:
+  // Whether the faces of an edge allow it to be seen.
+  static bool MayFace(const SceneEdge& edge, const Eigen::Vector3f& eye);
   void AddFeatureEdges(const CityModel& model, const MeshEdges& mesh);
   void AddWeakFolds(const CityModel& model, const MeshEdges& mesh);
   void BuildTree();
@@ -77,5 +85,38 @@ class EdgeSet {
   std::vector<char> matched_;     // per mesh edge, while building
   std::vector<Cluster> clusters_;  // depth first
 };
+
+template <typename IsHidden, typename Visit>
+void EdgeSet::ForCandidates(const Eigen::Vector3f& eye,
+                            const SectorTest& sector,
+                            float max_distance_m,
+                            float min_angle,
+                            const IsHidden& is_hidden,
+                            const Visit& visit) const {
+  for (std::uint32_t i = 0; i < clusters_.size();) {
+    const Cluster& cluster = clusters_[i];
+    const Eigen::Vector3f center = cluster.box.center() - eye;
+    const Eigen::Vector3f extent = 0.5f * cluster.box.sizes();
+    const float nearest = (center.cwiseAbs() - extent).cwiseMax(0.0f).norm();
+    if (nearest > max_distance_m || cluster.longest < min_angle * nearest ||
+        !sector.MayContainBox(center, extent) || is_hidden(center, extent)) {
+      i = cluster.skip;
+      continue;
+    }
+    for (std::uint32_t k = cluster.first; k < cluster.first + cluster.count; ++k) {
+      const SceneEdge& edge = edges_[k];
+      if (!MayFace(edge, eye)) continue;
+      const Eigen::Vector3f a = edge.a - eye;
+      const Eigen::Vector3f b = edge.b - eye;
+      if (!sector.MayContainSegment(a, b)) continue;
+      const Eigen::Vector3f along = b - a;
+      const float t = std::clamp(-a.dot(along) / along.squaredNorm(), 0.0f, 1.0f);
+      const float distance = (a + t * along).norm();
+      if (distance > max_distance_m || edge.length < min_angle * distance) continue;
+      visit(edge, a, b, distance);
+    }
+    ++i;
+  }
+}
 
 }  // namespace ridgeline

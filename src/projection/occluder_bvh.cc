@@ -148,6 +148,27 @@ Shadows CastShadows(const Leaf& leaf, const Vec3x4& eye, const Vec3x4& a, const 
   return shadows;
 }
 
+// Whether an occluder's shadow holds a whole box.
+bool ShadowHoldsBox(const Leaf& leaf,
+                    const Vec3x4& eye,
+                    const Vec3x4& center,
+                    const Vec3x4& extent) {
+  const Vec3x4 va = leaf.a - eye;
+  const Float4 height = Dot(leaf.normal, va);
+  const Float4 sign = height > 0.0f ? Splat(1.0f) : Splat(-1.0f);
+  const auto lowest = [&](const Vec3x4& normal) {
+    return sign * Dot(normal, center) - Dot(Abs3(normal), extent);
+  };
+  Float4 least = lowest(leaf.normal) - Abs(height) - leaf.tolerance;
+  if (simd::Bits(least > 0.0f) == 0) return false;
+  const Vec3x4 vb = leaf.b - eye;
+  const Vec3x4 vc = leaf.c - eye;
+  const Vec3x4 vd = leaf.d - eye;
+  least = Min(least, Min(lowest(Cross(va, vb)), lowest(Cross(vb, vc))));
+  least = Min(least, Min(lowest(Cross(vc, vd)), lowest(Cross(vd, va))));
+  return simd::Bits(least >= 0.0f) != 0;
+}
+
 void AddHidden(Interval added, std::vector<Interval>& hidden) {
   std::size_t begin = 0;
   while (begin < hidden.size() && hidden[begin].last < added.first - kJoin) ++begin;
@@ -298,6 +319,22 @@ OccluderBvh::~OccluderBvh() = default;
 
 std::size_t OccluderBvh::memory_bytes() const {
   return impl_->nodes.size() * sizeof(Node) + impl_->leaves.size() * sizeof(Leaf);
+}
+
+bool OccluderBvh::HidesBox(const Eigen::Vector3f& eye,
+                           const Eigen::Vector3f& center_from_eye,
+                           const Eigen::Vector3f& extent,
+                           const Hints& hints) const {
+  const Turn& turn = impl_->turn;
+  const Eigen::Vector3f center = turn * center_from_eye;
+  const std::uint32_t hint = hints[AzimuthRange(center, hints.size())];
+  if (hint >= impl_->leaves.size()) return false;
+  // The box around the turned box; a millimetre keeps rounding on the safe side.
+  const float c = std::abs(turn.cosine);
+  const float s = std::abs(turn.sine);
+  const Eigen::Vector3f turned(c * extent.x() + s * extent.y() + 1e-3f,
+                               s * extent.x() + c * extent.y() + 1e-3f, extent.z() + 1e-3f);
+  return ShadowHoldsBox(impl_->leaves[hint], Splat3(turn * eye), Splat3(center), Splat3(turned));
 }
 
 bool OccluderBvh::Hide(const Eigen::Vector3f& eye,

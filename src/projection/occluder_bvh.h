@@ -46,6 +46,13 @@ class OccluderBvh {
             std::vector<Interval>& hidden,
             Hints& hints) const;
 
+  // Whether one of the occluders in the leaf hinted at hides a whole box (centre relative to the
+  // eye, half sizes) for sure: then Hide would hide every segment in it. Cheap; often says no.
+  bool HidesBox(const Eigen::Vector3f& eye,
+                const Eigen::Vector3f& center_from_eye,
+                const Eigen::Vector3f& extent,
+                const Hints& hints) const;
+
   std::size_t memory_bytes() const;
 
  private:

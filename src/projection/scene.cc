@@ -29,15 +29,8 @@ float AngleBetween(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-float DistanceToSegment(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  const Eigen::Vector3f along = b - a;
-  const float t = std::clamp(-a.dot(along) / along.squaredNorm(), 0.0f, 1.0f);
-  return (a + t * along).norm();
-}
-
 // Memory of the queries of one thread.
 struct Workspace {
-  std::vector<std::uint32_t> candidates;
   std::vector<Interval> hidden;
   OccluderBvh::Hints building_hints{};
   OccluderBvh::Hints ground_hints{};
@@ -104,20 +97,21 @@ VisibleSet Scene::VisibleFrom(const Eigen::Vector3d& position, const Sector& sec
   const auto min_angle = static_cast<float>(impl.options.min_piece_mrad * kMilli);
 
   Workspace& workspace = ThreadWorkspace();
-  impl.edges.Candidates(eye, sector_test, static_cast<float>(impl.options.max_distance_m),
-                        min_angle, workspace.candidates);
   VisibleSet visible = SkylineFrom(position, sector);
-  for (const std::uint32_t candidate : workspace.candidates) {
-    const SceneEdge& edge = impl.edges.edges()[candidate];
-    const Eigen::Vector3f a = edge.a - eye;
-    const Eigen::Vector3f b = edge.b - eye;
+  const auto is_hidden = [&](const Eigen::Vector3f& center, const Eigen::Vector3f& extent) {
+    return impl.buildings.HidesBox(eye, center, extent, workspace.building_hints);
+  };
+  const auto add_visible_parts = [&](const SceneEdge& edge,
+                                     const Eigen::Vector3f& a,
+                                     const Eigen::Vector3f& b,
+                                     float distance) {
     // No part shorter than this can reach the least angle.
-    const float min_part = min_angle * DistanceToSegment(a, b) / edge.length;
+    const float min_part = min_angle * distance / edge.length;
     std::vector<Interval>& hidden = workspace.hidden;
     hidden.clear();
     if (!impl.buildings.Hide(eye, a, b, min_part, hidden, workspace.building_hints) ||
         !impl.ground.Hide(eye, a, b, min_part, hidden, workspace.ground_hints)) {
-      continue;
+      return;
     }
     hidden.push_back({1.0f, 1.0f});
     float first = 0.0f;
@@ -131,7 +125,9 @@ VisibleSet Scene::VisibleFrom(const Eigen::Vector3d& position, const Sector& sec
           impl.beside.Find(eye, edge, impl.Feature(edge.index), start, end);
       visible.pieces.push_back({eye + start, eye + end, edge.index, left, right});
     }
-  }
+  };
+  impl.edges.ForCandidates(eye, sector_test, static_cast<float>(impl.options.max_distance_m),
+                           min_angle, is_hidden, add_visible_parts);
   std::stable_sort(visible.pieces.begin(), visible.pieces.end(),
                    [](const VisiblePiece& p, const VisiblePiece& q) { return p.edge < q.edge; });
   return visible;
