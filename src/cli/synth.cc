@@ -14,6 +14,7 @@
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "synth/town_dataset.h"
+#include "synth/walk.h"
 
 namespace ridgeline {
 namespace {
@@ -30,11 +31,13 @@ struct SynthArguments {
   bool overwrite = false;
   std::vector<std::string> set;
   TownDatasetOptions options;
+  int walk_frames = 0;
+  WalkOptions walk;
 };
 
-void ParseSize(const std::string& size, TownDatasetOptions& options) {
+void ParseSize(const std::string& size, int& width, int& height) {
   char rest = '\0';
-  if (std::sscanf(size.c_str(), "%dx%d%c", &options.width, &options.height, &rest) != 2) {
+  if (std::sscanf(size.c_str(), "%dx%d%c", &width, &height, &rest) != 2) {
     throw InputError("--size", "", "\"" + size + "\"", "WIDTHxHEIGHT in pixels, e.g. 1280x960");
   }
 }
@@ -60,15 +63,23 @@ void Commit(const fs::path& temporary, const fs::path& out) {
 
 int RunSynth(SynthArguments& arguments, const Context& context) {
   TownDatasetOptions& options = arguments.options;
-  if (!arguments.size.empty()) ParseSize(arguments.size, options);
+  WalkOptions& walk = arguments.walk;
+  const bool is_walk = arguments.walk_frames > 0;
+  if (!arguments.size.empty()) {
+    ParseSize(arguments.size,
+              is_walk ? walk.width : options.width,
+              is_walk ? walk.height : options.height);
+  }
   if (arguments.buildings) {
     const int side = static_cast<int>(std::ceil(std::sqrt(*arguments.buildings / kBuildingsPerBlock)));
     options.town.blocks_east = options.town.blocks_north = std::max(1, side);
   }
+  walk.town = options.town;
+  walk.frames = arguments.walk_frames;
   for (const std::string& assignment : arguments.set) {
-    SetOption(assignment, [&](OptionVisitor& v) { options.Visit(v); });
+    SetOption(assignment, [&](OptionVisitor& v) { is_walk ? walk.Visit(v) : options.Visit(v); });
   }
-  options.Validate();
+  is_walk ? walk.Validate() : options.Validate();
   fs::path out = fs::absolute(arguments.out).lexically_normal();
   if (!out.has_filename()) out = out.parent_path();
   CheckTarget(out, arguments.overwrite);
@@ -76,11 +87,13 @@ int RunSynth(SynthArguments& arguments, const Context& context) {
   const fs::path temporary = TemporaryBeside(out);
   fs::create_directory(temporary);
   std::unique_ptr<Progress> progress;
-  const TownDatasetSummary summary = WriteTownDataset(
-      options, temporary, context.threads, [&](std::size_t done, std::size_t total) {
-        if (!progress) progress = std::make_unique<Progress>(context, "Building", total, "files");
-        progress->Set(done);
-      });
+  const auto show = [&](std::size_t done, std::size_t total) {
+    if (!progress) progress = std::make_unique<Progress>(context, "Building", total, "files");
+    progress->Set(done);
+  };
+  const TownDatasetSummary summary =
+      is_walk ? WriteWalkDataset(walk, temporary, context.threads, show)
+              : WriteTownDataset(options, temporary, context.threads, show);
   progress.reset();
   Commit(temporary, out);
 
@@ -95,7 +108,13 @@ int RunSynth(SynthArguments& arguments, const Context& context) {
   }
   context.Print("Town of " + std::to_string(summary.buildings) + " buildings and parts, " +
                 std::to_string(summary.pictures) + " pictures, in " + arguments.out);
-  if (summary.pictures > 0) context.Print("Next: ridgeline bench " + dataset.string() + " --out DIR");
+  if (is_walk) {
+    const fs::path sensors = fs::path(arguments.out) / "sensors.csv";
+    context.Print("Next: ridgeline skyline --dataset " + dataset.string() + " --sensors " +
+                  sensors.string() + " --out DIR");
+  } else if (summary.pictures > 0) {
+    context.Print("Next: ridgeline bench " + dataset.string() + " --out DIR");
+  }
   return kExitOk;
 }
 
@@ -108,7 +127,8 @@ void AddSynthCommand(CLI::App& app, Context& context) {
                                  {"synth",
                                   "Invents a town: CityGML, DTM and pictures with exact poses.",
                                   "ridgeline synth --out town --seed 7 --queries 20\n"
-                                  "ridgeline synth --out big --buildings 100000 --queries 0"},
+                                  "ridgeline synth --out big --buildings 100000 --queries 0\n"
+                                  "ridgeline synth --out walk --walk 60"},
                                  [arguments](Context& c) { return RunSynth(*arguments, c); });
   TownDatasetOptions& options = arguments->options;
   command->add_option("--out", arguments->out, "Folder to make")->required()->type_name("DIR");
@@ -118,7 +138,9 @@ void AddSynthCommand(CLI::App& app, Context& context) {
   command->add_option("--tilted", options.tilted, "Pictures looking up")->capture_default_str();
   command->add_option("--portrait", options.portrait, "Upright pictures")->capture_default_str();
   command->add_option("--drone", options.drone, "Pictures from a drone")->capture_default_str();
-  command->add_option("--size", arguments->size, "Size of the pictures [1280x960]")
+  command->add_option("--walk", arguments->walk_frames, "Instead: frames of a hand-held walk")
+      ->type_name("FRAMES");
+  command->add_option("--size", arguments->size, "Size of the pictures [1280x960; walk 640x480]")
       ->type_name("WxH");
   command->add_option("--buildings", arguments->buildings, "About so many buildings, in tiles if many");
   command->add_option("--set", arguments->set, "Any other option, e.g. --set survey_sigma_m=0.2")

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "synth/walk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/random.h"
+
+namespace ridgeline {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kDeg = 180.0 / std::numbers::pi;
+constexpr std::uint64_t kWalkStage = 0x90;
+constexpr double kEyeHeightM = 1.6;
+// The walker keeps to the roadway, so far from the middle line [m].
+constexpr double kOffMiddleM = 1.5;
+// Steps per second.
+constexpr double kStepRate = 1.9;
+
+// The crossings a walk leads over: along one street, then into others, back and forth.
+std::vector<Vector2d> Way(const Town& town, double length_m, Random& random) {
+  const int columns = town.options.blocks_east;
+  const int rows = town.options.blocks_north;
+  int column = static_cast<int>(random.Below(static_cast<std::uint64_t>(columns + 1)));
+  int row = 0;
+  bool north = true;
+  std::vector<Vector2d> way{town.Crossing(column, row)};
+  double length = 0.0;
+  int dx = column < columns ? 1 : -1, dy = 1;
+  while (length < length_m) {
+    // North and east by turns, turning back at the edges of the town.
+    if (north) {
+      if (row + dy < 0 || row + dy > rows) dy = -dy;
+      row += dy;
+    } else {
+      if (column + dx < 0 || column + dx > columns) dx = -dx;
+      column += dx;
+    }
+    north = !north;
+    way.push_back(town.Crossing(column, row));
+    length += (way.back() - way[way.size() - 2]).norm();
+  }
+  return way;
+}
+
+struct Place {
+  Vector2d xy;
+  double heading_rad = 0.0;  // of the walk
+};
+
+Place PlaceAt(const std::vector<Vector2d>& way, double distance_m) {
+  std::size_t i = 0;
+  double left = distance_m;
+  while (i + 2 < way.size() && left > (way[i + 1] - way[i]).norm()) {
+    left -= (way[i + 1] - way[i]).norm();
+    ++i;
+  }
+  const Vector2d along = (way[i + 1] - way[i]).normalized();
+  const Vector2d right(along.y(), -along.x());
+  return {way[i] + left * along + kOffMiddleM * right, std::atan2(along.x(), along.y())};
+}
+
+// A smooth random function of time: three sines of random phase, of amplitude about 1.
+class Sway {
+ public:
+  Sway(double period_s, Random& random) : period_s_(period_s) {
+    for (double& phase : phases_) phase = random.Uniform(0.0, 2.0 * std::numbers::pi);
+  }
+  double At(double time_s) const {
+    const double t = 2.0 * std::numbers::pi * time_s / period_s_;
+    return 0.6 * std::sin(t + phases_[0]) + 0.3 * std::sin(1.7 * t + phases_[1]) +
+           0.2 * std::sin(3.1 * t + phases_[2]);
+  }
+
+ private:
+  double period_s_;
+  double phases_[3] = {};
+};
+
+void Require(bool valid, const char* field, double found, const char* expected) {
+  if (!valid) throw InputError("", std::string("walk.") + field, std::to_string(found), expected);
+}
+
+}  // namespace
+
+void WalkOptions::Visit(OptionVisitor& v) {
+  v.Group("town", [&](OptionVisitor& g) { town.Visit(g); });
+  v.Field("frames", frames);
+  v.Field("frames_per_second", frames_per_second);
+  v.Field("width", width);
+  v.Field("height", height);
+  v.Field("horizontal_fov_deg", horizontal_fov_deg);
+  v.Field("jpeg_quality", jpeg_quality);
+  v.Field("speed_m_s", speed_m_s);
+  v.Field("pitch_deg", pitch_deg);
+  v.Field("overhang_m", overhang_m);
+  v.Field("survey_sigma_m", survey_sigma_m);
+  v.Field("compass_error_deg", compass_error_deg);
+  v.Field("compass_noise_deg", compass_noise_deg);
+  v.Field("declination_deg", declination_deg);
+  v.Field("gnss_error_low_m", gnss_error_low_m);
+  v.Field("gnss_error_high_m", gnss_error_high_m);
+  v.Field("altitude_noise_m", altitude_noise_m);
+  v.Field("altitude_jump_m", altitude_jump_m);
+  v.Field("tilt_sigma_deg", tilt_sigma_deg);
+  v.Field("acceleration_noise", acceleration_noise);
+  v.Field("pressure_noise_hpa", pressure_noise_hpa);
+}
+
+void WalkOptions::Validate() const {
+  town.Validate();
+  Require(town.blocks_east <= 6 && town.blocks_north <= 6, "town.blocks_east",
+          std::max(town.blocks_east, town.blocks_north), "at most 6 blocks each way");
+  Require(frames >= 1 && frames <= 100000, "frames", frames, "1 to 100000");
+  Require(frames_per_second > 0.0, "frames_per_second", frames_per_second, "more than 0");
+  Require(width >= 64 && width <= 10000, "width", width, "64 to 10000 px");
+  Require(height >= 64 && height <= 10000, "height", height, "64 to 10000 px");
+  Require(horizontal_fov_deg >= 20.0 && horizontal_fov_deg <= 120.0, "horizontal_fov_deg",
+          horizontal_fov_deg, "20 to 120");
+  Require(jpeg_quality >= 1 && jpeg_quality <= 100, "jpeg_quality", jpeg_quality, "1 to 100");
+  Require(speed_m_s >= 0.0, "speed_m_s", speed_m_s, "at least 0");
+  Require(std::abs(pitch_deg) <= 45.0, "pitch_deg", pitch_deg, "-45 to 45");
+  Require(std::abs(declination_deg) <= 180.0, "declination_deg", declination_deg, "-180 to 180");
+  Require(gnss_error_high_m >= gnss_error_low_m, "gnss_error_high_m", gnss_error_high_m,
+          "at least gnss_error_low_m");
+  const std::pair<const char*, double> not_negative[] = {
+      {"overhang_m", overhang_m},
+      {"survey_sigma_m", survey_sigma_m},
+      {"compass_error_deg", compass_error_deg},
+      {"compass_noise_deg", compass_noise_deg},
+      {"gnss_error_low_m", gnss_error_low_m},
+      {"altitude_noise_m", altitude_noise_m},
+      {"altitude_jump_m", altitude_jump_m},
+      {"tilt_sigma_deg", tilt_sigma_deg},
+      {"acceleration_noise", acceleration_noise},
+      {"pressure_noise_hpa", pressure_noise_hpa}};
+  for (const auto& [name, value] : not_negative) Require(value >= 0.0, name, value, "at least 0");
+}
+
+std::vector<Pose> WalkPoses(const Town& town, const WalkOptions& options) {
+  Random random(static_cast<std::uint64_t>(town.options.seed), kWalkStage);
+  const double seconds = options.frames / options.frames_per_second;
+  const std::vector<Vector2d> way = Way(town, seconds * options.speed_m_s + 1.0, random);
+  // Looking around slowly, the hand's unrest, and the head's path from step to step.
+  const Sway look(12.0, random), hand_heading(2.3, random), hand_pitch(1.9, random),
+      hand_roll(2.7, random), side(3.1, random);
+  std::vector<Pose> poses;
+  for (int i = 0; i < options.frames; ++i) {
+    const double t = i / options.frames_per_second;
+    // Half a second of the way smooths the corners.
+    Place place = PlaceAt(way, t * options.speed_m_s);
+    const Place ahead = PlaceAt(way, (t + 1.5) * options.speed_m_s);
+    const double turn = std::remainder(ahead.heading_rad - place.heading_rad, 2.0 * std::numbers::pi);
+    const double heading_deg = (place.heading_rad + 0.5 * turn) * kDeg + 25.0 * look.At(t) +
+                               1.5 * hand_heading.At(t);
+    const double bob = 0.03 * std::sin(2.0 * std::numbers::pi * kStepRate * t);
+    place.xy += 0.1 * side.At(t) * Vector2d(std::cos(place.heading_rad), -std::sin(place.heading_rad));
+    Pose pose;
+    pose.center_in_world = {
+        place.xy.x(), place.xy.y(), town.TerrainHeight(place.xy) + kEyeHeightM + bob};
+    pose.cam_from_world = CamFromWorld(ViewAngles{WrapHeadingDeg(heading_deg),
+                                                  options.pitch_deg + 2.0 * hand_pitch.At(t),
+                                                  2.0 * hand_roll.At(t)});
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+}  // namespace ridgeline
