@@ -51,6 +51,8 @@ void Suggest(benchmark::State& state, const char* name) {
 
 BENCHMARK_CAPTURE(Suggest, tpe, "tpe")->Arg(200)->Arg(1000);
 BENCHMARK_CAPTURE(Suggest, tpe_multivariate, "tpe_multivariate")->Arg(200)->Arg(1000);
+BENCHMARK_CAPTURE(Suggest, gp, "gp")->Arg(200)->Arg(500)->Iterations(2);
+BENCHMARK_CAPTURE(Suggest, multi_start, "multi_start")->Arg(200)->Arg(10000);
 
 }  // namespace
 }  // namespace ridgeline

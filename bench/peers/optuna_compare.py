@@ -91,8 +91,8 @@ def cached_runs(path, variants, seeds):
         writer = csv.writer(file)
         if not rows:
             writer.writerow(HEADER)
-        for variant in variants:
-            for seed in range(seeds):
+        for seed in range(seeds):
+            for variant in variants:
                 for name in FUNCTIONS:
                     if (variant, name, seed) not in done:
                         row = run_optuna(variant, name, seed)

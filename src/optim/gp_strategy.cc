@@ -163,11 +163,13 @@ void GpStrategy::FitHyper(const MatrixXd& points, const VectorXd& targets) {
     return value;
   };
   BoxBfgsOptions bfgs;
-  bfgs.max_iterations = 12;
+  const bool cheap = points.cols() < 100;
+  // Few steps where each costs milliseconds: the start is the last optimum, and refits are many.
+  bfgs.max_iterations = cheap ? 12 : 4;
   bfgs.tolerance = 1e-3;
   BoxBfgsResult result = MinimizeInBox(negative_log_posterior, hyper_, lower, upper, bfgs);
-  if (fitted_size_ == 0 || points.cols() < 100) {
-    // While a fit is cheap: the last optimum may be a poor one.
+  if (fitted_size_ == 0 || cheap) {
+    // The last optimum may be a poor one.
     const BoxBfgsResult fresh = MinimizeInBox(negative_log_posterior, center, lower, upper, bfgs);
     if (fresh.value < result.value) result = fresh;
   }

@@ -99,7 +99,7 @@ struct MultiStartOptions {
   int first_points = 32;
   double growth = 1.5;
   // Simplices started per round, >= 1.
-  int descents = 3;
+  int descents = 4;
 
   void Visit(OptionVisitor& v);
 };
