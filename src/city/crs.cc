@@ -197,6 +197,35 @@ bool IsGeographic(const Crs& crs, const std::string& file) {
   return ImportOrThrow(crs.horizontal_epsg, file)->IsGeographic() == TRUE;
 }
 
+bool HasEllipsoidalHeights(const Crs& crs) {
+  if (crs.horizontal_epsg == 0 || crs.vertical_epsg != 0) return false;
+  const std::unique_ptr<OGRSpatialReference> srs = Import(crs.horizontal_epsg);
+  return srs != nullptr && srs->IsGeographic() == TRUE && srs->GetAxesCount() == 3;
+}
+
+std::optional<double> GeoidUndulation(double latitude_deg, double longitude_deg) {
+  OGRSpatialReference ellipsoidal;
+  OGRSpatialReference sea_level;
+  CPLPushErrorHandler(CPLQuietErrorHandler);
+  std::optional<double> undulation;
+  if (ellipsoidal.importFromEPSG(4979) == OGRERR_NONE &&
+      sea_level.SetFromUserInput("EPSG:4326+5773") == OGRERR_NONE) {
+    ellipsoidal.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    sea_level.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    const Transformation transformation(
+        OGRCreateCoordinateTransformation(&ellipsoidal, &sea_level));
+    double x = longitude_deg;
+    double y = latitude_deg;
+    double z = 0.0;
+    // Without the grid PROJ passes the height through.
+    if (transformation != nullptr && transformation->Transform(1, &x, &y, &z) == TRUE && z != 0.0) {
+      undulation = -z;
+    }
+  }
+  CPLPopErrorHandler();
+  return undulation;
+}
+
 ToProjected::ToProjected(const Crs& source,
                          const Crs& target,
                          const Eigen::Vector3d& sample,

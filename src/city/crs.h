@@ -25,6 +25,14 @@ std::string CrsName(const Crs& crs);
 // does not know the code; `file` is named in the message.
 bool IsGeographic(const Crs& crs, const std::string& file);
 
+// Whether the system's own heights are above its ellipsoid (three-dimensional geographic systems
+// such as EPSG:4979), not above sea level.
+bool HasEllipsoidalHeights(const Crs& crs);
+
+// Height of the ellipsoid's surface below sea level (geoid undulation, EGM96) at a place [m];
+// nullopt if PROJ has no grid of it.
+std::optional<double> GeoidUndulation(double latitude_deg, double longitude_deg);
+
 // Takes coordinates as a file has them to east, north, height. Files write east first whatever the
 // EPSG register says, but for geographic systems (latitude first); where the system's area of use
 // shows the opposite, the two are swapped.

@@ -2,7 +2,7 @@
 #include "city/read_city.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -94,6 +94,23 @@ Crs CrsOfSource(const SourceModel& source, const std::optional<Crs>& forced) {
   return crs.value_or(Crs{});
 }
 
+// Says how many metres are at stake where heights are above the ellipsoid, unless an offset is
+// given.
+void WarnOfEllipsoidalHeights(SourceModel& source,
+                              const Crs& projected,
+                              const CityOptions& options) {
+  if (options.height_offset_m != 0.0) return;
+  const std::optional<Eigen::Vector2d> place =
+      LatitudeLongitude(projected, source.points.front().head<2>());
+  const std::optional<double> undulation =
+      place ? GeoidUndulation(place->x(), place->y()) : std::nullopt;
+  const std::string metres = undulation ? "about " + Number(std::round(*undulation)) + " m here"
+                                        : "tens of metres, 35 to 50 m in Central Europe";
+  source.tally.Add("files with heights above the ellipsoid; heights above sea level differ by " +
+                       metres + " (city.height_offset_m moves the model)",
+                   source.file);
+}
+
 // Moves all sources to one projected system and returns it.
 Crs ProjectSources(std::vector<SourceModel>& sources, const CityOptions& options) {
   const std::optional<Crs> forced = ParseOption("model_crs", options.model_crs);
@@ -106,6 +123,10 @@ Crs ProjectSources(std::vector<SourceModel>& sources, const CityOptions& options
     const ToProjected projection(
         written, target.value_or(Crs{}), source.points.front(), source.file);
     projection.Apply(source.points);
+    for (Eigen::Vector3d& point : source.points) point.z() += options.height_offset_m;
+    if (HasEllipsoidalHeights(written)) {
+      WarnOfEllipsoidalHeights(source, projection.crs(), options);
+    }
     if (projection.swaps() && !projection.transforms()) {
       source.tally.Add("files with north before east, swapped", source.file);
     }
@@ -132,6 +153,7 @@ Crs ProjectSources(std::vector<SourceModel>& sources, const CityOptions& options
 void CityOptions::Validate() const {
   ParseOption("model_crs", model_crs);
   ParseOption("project_to", project_to);
+  CheckRange("height_offset_m", height_offset_m, -10000.0, 10000.0);
   CheckRange("lod", lod, 1, 4);
   CheckRange("min_dihedral_deg", min_dihedral_deg, 0.1, 170.0);
   CheckRange("weld_m", weld_m, 1e-6, 0.5);

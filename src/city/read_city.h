@@ -16,6 +16,9 @@ struct CityOptions {
   // Projected system that the model is moved to. Empty: the files' own; for geographic coordinates
   // the UTM zone of their middle.
   std::string project_to;
+  // Added to the model's heights [m], e.g. minus the geoid undulation where a model has heights
+  // above the ellipsoid and the terrain model has not.
+  double height_offset_m = 0.0;
   // Level of detail wanted, 1 to 4. A building without it is read in its next one, with a warning.
   int lod = 2;
   // Feature edges: smallest angle between the normals of the two faces [deg].
@@ -33,6 +36,7 @@ struct CityOptions {
   void Visit(OptionVisitor& v) {
     v.Field("model_crs", model_crs);
     v.Field("project_to", project_to);
+    v.Field("height_offset_m", height_offset_m);
     v.Field("lod", lod);
     v.Field("min_dihedral_deg", min_dihedral_deg);
     v.Field("weld_m", weld_m);

@@ -205,6 +205,21 @@ TEST(Gzip, CompressedTilesAreRead) {
   ExpectBox(ReadCity({file}, {}));
 }
 
+TEST(Geographic, HeightsAboveTheEllipsoidAreAWarning) {
+  const Ring ring{{48.1, 11.5, 560}, {48.1, 11.5001, 560}, {48.1001, 11.5001, 560}};
+  const std::string text =
+      GmlDocument(GmlBuilding("a", GmlBoundary("RoofSurface", GmlPolygon(ring))), "EPSG:4979");
+  const CityModel as_written = ReadGml(text);
+  EXPECT_THAT(as_written.warnings, Contains(HasSubstr("heights above the ellipsoid")));
+  EXPECT_EQ(as_written.crs.horizontal_epsg, 32632);
+  CityOptions options;
+  options.height_offset_m = -45.5;
+  const CityModel moved = ReadGml(text, options);
+  EXPECT_THAT(moved.warnings, ::testing::IsEmpty());
+  const auto height = [](const CityModel& m) { return m.vertices[0].z() + m.origin_in_world.z(); };
+  EXPECT_NEAR(height(moved), height(as_written) - 45.5, 1e-9);
+}
+
 TEST(Geographic, LatitudeLongitudeHeightIsProjected) {
   // A square of 0.0001 degrees at 35.68 N, 139.77 E: 11.1 m by 9.05 m.
   const Ring ring{
