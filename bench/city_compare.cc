@@ -91,8 +91,10 @@ Peer ReadWithPeer(const std::string& file) {
       peer.failure = "no model";
     } else {
       for (unsigned i = 0; i < model->getNumRootCityObjects(); ++i) {
+        const citygml::CityObject& object = model->getRootCityObject(static_cast<int>(i));
+        if (object.getType() != citygml::CityObject::CityObjectsType::COT_Building) continue;
         PolygonsOfLod of_lod;
-        Collect(model->getRootCityObject(static_cast<int>(i)), of_lod);
+        Collect(object, of_lod);
         for (const unsigned lod : {2u, 3u, 4u, 1u}) {
           if (of_lod[lod].empty()) continue;
           peer.polygons += of_lod[lod].size();
