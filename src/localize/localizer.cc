@@ -136,7 +136,8 @@ Localization Localizer::Localize(const LocalizationInput& input,
   const cv::Mat bgr = UndistortImage(BgrOf(input.picture), input.camera);
   const PictureEvidence evidence(
       bgr, input.camera.Pinhole(), options.lines, options.score.evidence, input.lines);
-  const std::unique_ptr<Score> score = MakeScore(options.score, evidence, bgr, scene);
+  const std::unique_ptr<Score> score =
+      MakeScore(options.score, evidence, bgr, input.camera.Pinhole(), scene);
   lap("picture");
   if (evidence.segments().size() < kMinLines) {
     result.status = LocalizationStatus::kTooFewLines;

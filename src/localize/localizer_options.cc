@@ -20,6 +20,9 @@ void ScoreOptions::Visit(OptionVisitor& v) {
   v.Field("weights", weights);
   v.Group("evidence", [this](OptionVisitor& g) { evidence.Visit(g); });
   v.Group("line_energy", [this](OptionVisitor& g) { line_energy.Visit(g); });
+  v.Group("zbuffer_hough", [this](OptionVisitor& g) { zbuffer_hough.Visit(g); });
+  v.Group("skyline", [this](OptionVisitor& g) { skyline.Visit(g); });
+  v.Group("skyline_l1", [this](OptionVisitor& g) { skyline_l1.Visit(g); });
 }
 
 void ScoreOptions::Validate() const {
@@ -37,6 +40,9 @@ void ScoreOptions::Validate() const {
   }
   evidence.Validate();
   line_energy.Validate();
+  zbuffer_hough.Validate();
+  skyline.Validate();
+  skyline_l1.Validate();
 }
 
 void MapOptions::Visit(OptionVisitor& v) {

@@ -9,8 +9,11 @@
 #include "localize/pose_space.h"
 #include "optim/sampler_options.h"
 #include "projection/scene.h"
+#include "projection/zbuffer_hough.h"
 #include "score/line_energy.h"
 #include "score/picture_evidence.h"
+#include "score/skyline_l1.h"
+#include "skyline/skyline_extractor.h"
 
 namespace ridgeline {
 
@@ -20,9 +23,12 @@ struct ScoreOptions {
   std::string name = "evidence";
   // Weights of the cues, in the order of kCueNames: the maximum likelihood of the dev queries
   // (docs/scores.md has the command).
-  std::vector<double> weights = {0.144, 0.054, 0.029, 0.122, 1.228, 5.424, 0.828};
+  std::vector<double> weights = {0.14, 0.04, 0.02, 0.2, 0.3, 6.0, 0.85};
   EvidenceOptions evidence;
   LineEnergyOptions line_energy;
+  ZbufferHoughOptions zbuffer_hough;
+  SkylineOptions skyline;
+  SkylineL1Options skyline_l1;
 
   void Visit(OptionVisitor& v);
   void Validate() const;

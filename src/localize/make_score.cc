@@ -3,16 +3,29 @@
 
 #include "score/evidence_score.h"
 #include "score/line_energy_score.h"
+#include "score/skyline_l1_score.h"
+#include "score/zbuffer_line_energy_score.h"
+#include "skyline/skyline_extractor.h"
 
 namespace ridgeline {
 
 std::unique_ptr<Score> MakeScore(const ScoreOptions& options,
                                  const PictureEvidence& evidence,
-                                 const cv::Mat& /*bgr*/,
+                                 const cv::Mat& bgr,
+                                 const PinholeCamera& camera,
                                  const Scene& scene) {
   if (options.name == "line_energy") {
     return std::make_unique<LineEnergyScore>(
         evidence.segments(), evidence.camera(), options.line_energy);
+  }
+  if (options.name == "line_energy_zbuffer") {
+    return std::make_unique<ZbufferLineEnergyScore>(evidence.segments(), evidence.camera(),
+                                                    scene.model(), options.line_energy,
+                                                    options.zbuffer_hough);
+  }
+  if (options.name == "skyline_l1") {
+    const Skyline skyline = ExtractSkyline(bgr, options.skyline);
+    return std::make_unique<SkylineL1Score>(SkylineL1(skyline, camera, options.skyline_l1));
   }
   return std::make_unique<EvidenceScore>(evidence, scene.model(), options.weights);
 }

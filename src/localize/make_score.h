@@ -4,16 +4,18 @@
 #include <memory>
 #include <opencv2/core/mat.hpp>
 
+#include "camera/intrinsics.h"
 #include "localize/localizer_options.h"
 #include "score/score.h"
 
 namespace ridgeline {
 
 // The score that the options name, for one picture. `evidence` and `scene` must outlive it.
-// bgr: the undistorted picture at full size.
+// @param bgr  The undistorted picture at full size, `camera` its camera.
 std::unique_ptr<Score> MakeScore(const ScoreOptions& options,
                                  const PictureEvidence& evidence,
                                  const cv::Mat& bgr,
+                                 const PinholeCamera& camera,
                                  const Scene& scene);
 
 }  // namespace ridgeline

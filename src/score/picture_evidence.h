@@ -20,7 +20,7 @@ namespace ridgeline {
 
 struct EvidenceOptions {
   // The picture is reduced to this length of its longer side [px], never enlarged.
-  int work_size_px = 640;
+  int work_size_px = 960;
   LineLikelihoodOptions lines;
   SkyTableOptions sky;
   FacadeDirectionOptions facades;

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/bench.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "cli/command.h"
+#include "cli/progress.h"
+#include "eval/bench.h"
+#include "eval/bench_files.h"
+#include "eval/world.h"
+
+namespace ridgeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct BenchArguments {
+  std::string dataset;
+  std::string out;
+  std::string perturb;
+  std::string score_only;
+  int seed = 1;
+  int seeds = 1;
+  ConfigArguments config;
+};
+
+std::string TableOf(const Summary& summary) {
+  std::string text = "            recall   95 % interval   among the answered\n";
+  char line[160];
+  for (std::size_t t = 0; t < kRecallThresholds.size(); ++t) {
+    std::snprintf(line, sizeof(line), "%-10s %6.1f %%   %5.1f to %5.1f   %6.1f %%\n",
+                  kRecallThresholds[t].name, 100.0 * summary.recall[t],
+                  100.0 * summary.recall_ci95[t].lower, 100.0 * summary.recall_ci95[t].upper,
+                  100.0 * summary.recall_answered[t]);
+    text += line;
+  }
+  std::snprintf(line, sizeof(line),
+                "median error %.2f m, %.2f deg; abstained %.1f %%; %.2f s per query (median), %.0f "
+                "poses/s",
+                summary.translation_m.median, summary.rotation_deg.median,
+                100.0 * summary.abstained, summary.seconds_median, summary.evaluations_per_second);
+  return text + line;
+}
+
+void WriteResults(const BenchArguments& arguments,
+                  const Dataset& dataset,
+                  const std::vector<RunRecord>& records,
+                  const Eigen::Vector3d& origin,
+                  const Context& context) {
+  const std::string config = arguments.config.config.empty() ? "default" : arguments.config.config;
+  const std::string summary = SummaryJson(dataset.name, config, records);
+  if (!arguments.out.empty()) {
+    const fs::path out = arguments.out;
+    WriteFileAtomically(out / "results.csv", ResultsCsv(records));
+    WriteFileAtomically(out / "poses.txt", PosesText(records, origin));
+    WriteFileAtomically(out / "summary.json", summary);
+  }
+  if (context.json) {
+    context.Print(summary);
+    return;
+  }
+  const Summary figures = Summarize(records);
+  context.Print(dataset.name + ": " + std::to_string(figures.queries) + " queries, " +
+                std::to_string(figures.all_runs) + " runs, " + std::to_string(figures.runs) +
+                " with truth");
+  context.Print(TableOf(figures));
+  if (!arguments.out.empty()) context.Print("written to " + arguments.out);
+}
+
+// Poses of another system in the same table.
+std::vector<RunRecord> ScorePoses(const Dataset& dataset, const fs::path& path) {
+  std::map<std::string, Pose> poses = ReadPosesCsv(path);
+  std::vector<RunRecord> records;
+  for (const Query& query : dataset.queries) {
+    const auto it = poses.find(query.id);
+    Localization localization;
+    if (it != poses.end()) {
+      localization.pose = it->second;
+      localization.status = LocalizationStatus::kOk;
+      poses.erase(it);
+    }
+    RunRecord record = RecordOf(query, 1, localization, 0.0);
+    record.ellipse_holds_truth.reset();  // other systems give no region
+    record.interval_holds_truth.reset();
+    records.push_back(record);
+  }
+  if (!poses.empty()) {
+    throw InputError(path.string(), "query", "\"" + poses.begin()->first + "\"",
+                     "an id of " + dataset.file.string());
+  }
+  return records;
+}
+
+int RunBenchCommand(const BenchArguments& arguments, const Context& context) {
+  const Dataset dataset = ReadDataset(arguments.dataset);
+  LocalizerOptions options;
+  ApplyConfig(arguments.config, [&](OptionVisitor& v) { options.Visit(v); });
+  options.Validate();
+  BenchOptions bench;
+  if (!arguments.perturb.empty()) bench.perturb = ParsePerturbation(arguments.perturb);
+  bench.seeds.clear();
+  for (int k = 0; k < arguments.seeds; ++k) bench.seeds.push_back(arguments.seed + k);
+  bench.threads = context.threads;
+  if (!arguments.out.empty()) {
+    std::error_code error;
+    fs::create_directories(arguments.out, error);
+    if (error) throw InputError("--out", "", arguments.out + ": " + error.message(), "a folder");
+    TemporaryBeside(fs::path(arguments.out) / "results.csv");  // fails before the work, not after
+  }
+  if (!arguments.score_only.empty()) {
+    WriteResults(arguments, dataset, ScorePoses(dataset, arguments.score_only),
+                 Eigen::Vector3d::Zero(), context);
+    return kExitOk;
+  }
+
+  constexpr double kPlaceMarginM = 50.0;
+  World world = ReadWorld(dataset, kPlaceMarginM);
+  for (const std::string& warning : world.warnings) context.Warn(warning);
+  const Localizer localizer(world.model, world.dtm, options);
+  std::vector<RunRecord> records;
+  {
+    std::unique_ptr<Progress> progress;
+    const auto show = [&](const BenchRun& run, std::size_t done, std::size_t total) {
+      if (!progress) progress = std::make_unique<Progress>(context, "Localizing", total, "runs");
+      progress->Set(done);
+      records.push_back(run.record);
+    };
+    RunBench(dataset, localizer, bench, show);
+  }
+  WriteResults(arguments, dataset, records, world.model.origin_in_world, context);
+  return kExitOk;
+}
+
+}  // namespace
+
+void AddBenchCommand(CLI::App& app, Context& context) {
+  auto arguments = std::make_shared<BenchArguments>();
+  CLI::App* command =
+      AddCommand(app,
+                 context,
+                 {"bench",
+                  "Localizes the queries of a dataset and scores the poses against their truths.",
+                  "ridgeline bench town/dataset.json --perturb 10,10,0,20 --seeds 5 --out results"},
+                 [arguments](Context& c) { return RunBenchCommand(*arguments, c); });
+  command->add_option("dataset", arguments->dataset, "dataset.json")->required();
+  command->add_option("--out", arguments->out,
+                      "Folder for results.csv, summary.json and poses.txt");
+  command->add_option("--perturb", arguments->perturb,
+                      "Draw priors around the truth: east,north,height,heading[,pitch,roll] "
+                      "half-ranges in m and deg; also the ranges of the search");
+  command->add_option("--seed", arguments->seed, "First seed (default 1)");
+  command->add_option("--seeds", arguments->seeds, "Number of seeds (default 1)")
+      ->check(CLI::Range(1, 1000));
+  command->add_option("--score-only", arguments->score_only,
+                      "Score another system's poses: CSV query,e,n,h,qw,qx,qy,qz");
+  AddConfigOptions(*command, arguments->config);
+}
+
+}  // namespace ridgeline

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "eval/bench.h"
+
+#include <chrono>
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+
+#include "base/error.h"
+#include "lines/segments_file.h"
+
+namespace ridgeline {
+namespace {
+
+// Quantile of the chi-square distribution with two degrees of freedom at 0.95: -2 ln 0.05.
+constexpr double kChiSquare95 = 5.991464547107979;
+constexpr double kNormal95 = 1.959963984540054;
+
+PoseSpaceOptions RangesOf(const PoseSpaceOptions& options, const Perturbation& perturb) {
+  PoseSpaceOptions ranges = options;
+  ranges.east_m = perturb.east_m;
+  ranges.north_m = perturb.north_m;
+  ranges.height_m = perturb.height_m;
+  ranges.heading_deg = perturb.heading_deg;
+  ranges.pitch_deg = perturb.pitch_deg;
+  ranges.roll_deg = perturb.roll_deg;
+  return ranges;
+}
+
+}  // namespace
+
+cv::Mat ReadPicture(const std::filesystem::path& path) {
+  if (!std::filesystem::is_regular_file(path)) {
+    throw InputError(path.string(), "", "no such file", "a picture");
+  }
+  const cv::Mat picture =
+      cv::imread(path.string(), cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
+  if (picture.empty()) {
+    throw InputError(path.string(), "", "a file that does not decode", "a picture (JPEG, PNG, TIFF)");
+  }
+  if (picture.depth() != CV_8U && picture.depth() != CV_16U) {
+    throw InputError(path.string(), "", "pixels of another type", "8 or 16 bit integers");
+  }
+  return picture;
+}
+
+LocalizationInput InputOf(const Query& query, const LocalizerOptions& options) {
+  LocalizationInput input;
+  input.picture = ReadPicture(query.image);
+  if (!query.camera) {
+    throw InputError(query.image.string(), "camera", "none", "a camera for query " + query.id);
+  }
+  input.camera = *query.camera;
+  if (query.prior) input.prior = *query.prior;
+  if (options.lines.detector == "file") {
+    if (!query.lines) {
+      throw InputError(query.image.string(), "lines", "none",
+                       "a file of segments, since lines.detector is \"file\"");
+    }
+    input.lines = ReadSegments(*query.lines, *query.camera);
+  }
+  return input;
+}
+
+RunRecord RecordOf(const Query& query, int seed, const Localization& localization, double seconds) {
+  RunRecord record;
+  record.query = query.id;
+  record.set = query.set;
+  record.seed = seed;
+  record.status = localization.pose ? "ok" : "abstained";
+  record.reason = localization.reason;
+  record.energy = localization.energy;
+  record.confidence = localization.confidence;
+  record.pose = localization.pose;
+  record.has_truth = query.truth.has_value();
+  record.evaluations = localization.evaluations;
+  record.seconds = seconds;
+  if (!localization.pose || !query.truth) return record;
+  record.error = ErrorOf(*localization.pose, *query.truth);
+  const Eigen::Vector2d offset =
+      (localization.pose->center_in_world - query.truth->center_in_world).head<2>();
+  record.ellipse_holds_truth =
+      offset.dot(localization.spread.position_covariance.inverse() * offset) <= kChiSquare95;
+  const double heading_error =
+      HeadingDifferenceDeg(ViewAnglesOf(localization.pose->cam_from_world).heading_deg,
+                           ViewAnglesOf(query.truth->cam_from_world).heading_deg);
+  record.interval_holds_truth =
+      std::abs(heading_error) <= kNormal95 * localization.spread.heading_sigma_deg;
+  return record;
+}
+
+std::vector<BenchRun> RunBench(const Dataset& dataset,
+                               const Localizer& localizer,
+                               const BenchOptions& options,
+                               const BenchProgress& progress) {
+  std::vector<std::size_t> usable;
+  for (std::size_t q = 0; q < dataset.queries.size(); ++q) {
+    const Query& query = dataset.queries[q];
+    if (options.perturb ? query.truth.has_value() : query.prior.has_value()) usable.push_back(q);
+  }
+  if (usable.empty()) {
+    throw InputError(dataset.file.string(),
+                     "queries",
+                     options.perturb ? "no query with a truth" : "no query with a prior",
+                     options.perturb ? "a truth to draw priors around" : "priors, or --perturb");
+  }
+  std::vector<BenchRun> runs;
+  const std::size_t total = usable.size() * options.seeds.size();
+  for (const std::size_t q : usable) {
+    const Query& query = dataset.queries[q];
+    for (const int seed : options.seeds) {
+      const auto start = std::chrono::steady_clock::now();
+      LocalizationInput input = InputOf(query, localizer.options());
+      PoseSpaceOptions ranges = localizer.options().search.space;
+      if (options.perturb) {
+        input.prior = DrawPrior(*query.truth, *options.perturb, seed, query.id);
+        ranges = RangesOf(ranges, *options.perturb);
+      }
+      BenchRun run;
+      run.query = q;
+      run.prior = input.prior;
+      run.localization = localizer.Localize(input, ranges, seed, options.threads);
+      const double seconds =
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      run.record = RecordOf(query, seed, run.localization, seconds);
+      runs.push_back(std::move(run));
+      if (progress) progress(runs.back(), runs.size(), total);
+    }
+  }
+  return runs;
+}
+
+}  // namespace ridgeline

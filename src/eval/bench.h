@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "eval/dataset.h"
+#include "eval/metrics.h"
+#include "eval/perturb.h"
+#include "localize/localizer.h"
+
+namespace ridgeline {
+
+struct BenchOptions {
+  // Made priors; absent: the dataset's own. Its ranges are those of the search then.
+  std::optional<Perturbation> perturb;
+  std::vector<int> seeds = {1};
+  int threads = 0;
+};
+
+// One run with all that a report shows.
+struct BenchRun {
+  RunRecord record;
+  std::size_t query = 0;  // index into Dataset::queries
+  PosePrior prior;
+  Localization localization;
+};
+
+// Called after each run, in order, on the caller's thread.
+using BenchProgress = std::function<void(const BenchRun&, std::size_t done, std::size_t total)>;
+
+// Localizes every query with every seed. Without --perturb queries without truth are localized too;
+// with it they are left out, since their priors are made from the truth. One run at a time, each on
+// all threads, so that the seconds are those of a user. Throws InputError if no query can be run.
+std::vector<BenchRun> RunBench(const Dataset& dataset,
+                               const Localizer& localizer,
+                               const BenchOptions& options,
+                               const BenchProgress& progress);
+
+// The picture of a query as ridgeline reads all pictures: EXIF orientation does not turn it. Throws
+// InputError if it does not decode.
+cv::Mat ReadPicture(const std::filesystem::path& path);
+
+// The prior and camera of a query, from the dataset or, where absent, from the picture. Throws
+// InputError naming the query.
+LocalizationInput InputOf(const Query& query, const LocalizerOptions& options);
+
+// The record of one localization.
+RunRecord RecordOf(const Query& query, int seed, const Localization& localization, double seconds);
+
+}  // namespace ridgeline

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "eval/bench_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <vector>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+
+namespace ridgeline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Enough digits for micrometres and micro-degrees; "" for what is not known.
+std::string Number(double value, int digits) {
+  std::ostringstream text;
+  text.precision(digits);
+  text << std::fixed << value;
+  return text.str();
+}
+
+Json JsonOf(const Spread& spread) {
+  return {{"median", spread.median}, {"mean", spread.mean}, {"mad", spread.mad}};
+}
+
+Json JsonOf(const Summary& summary) {
+  Json json;
+  json["queries"] = summary.queries;
+  json["runs"] = summary.all_runs;
+  json["runs_with_truth"] = summary.runs;
+  for (std::size_t t = 0; t < kRecallThresholds.size(); ++t) {
+    const char* name = kRecallThresholds[t].name;
+    json["recall"][name] = summary.recall[t];
+    json["recall_ci95"][name] = {summary.recall_ci95[t].lower, summary.recall_ci95[t].upper};
+    json["recall_answered"][name] = summary.recall_answered[t];
+  }
+  json["translation_error_m"] = JsonOf(summary.translation_m);
+  json["rotation_error_deg"] = JsonOf(summary.rotation_deg);
+  json["abstained"] = summary.abstained;
+  json["confidence_0.9"] = {{"share", summary.confident},
+                            {"recall_2m_2deg", summary.confident_recall_2m_2deg}};
+  json["coverage_95"] = {{"position_ellipse", summary.ellipse_coverage},
+                         {"heading_interval", summary.interval_coverage}};
+  json["seconds_per_query"] = {{"median", summary.seconds_median}, {"p95", summary.seconds_p95}};
+  json["pose_evaluations_per_second"] = summary.evaluations_per_second;
+  return json;
+}
+
+std::vector<std::string> Fields(const std::string& line) {
+  std::vector<std::string> fields;
+  std::istringstream stream(line);
+  std::string field;
+  while (std::getline(stream, field, ',')) {
+    field.erase(0, field.find_first_not_of(" \t"));
+    field.erase(field.find_last_not_of(" \t\r") + 1);
+    fields.push_back(field);
+  }
+  return fields;
+}
+
+// A text as one CSV field (RFC 4180).
+std::string CsvField(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+}  // namespace
+
+std::string ResultsCsv(std::span<const RunRecord> runs) {
+  std::ostringstream csv;
+  csv << "query,seed,status,energy,confidence,e,n,h,qw,qx,qy,qz,t_err_m,t_err_horizontal_m,r_err_deg,"
+         "evaluations,seconds\n";
+  for (const RunRecord& run : runs) {
+    csv << CsvField(run.query) << ',' << run.seed << ',' << run.status << ','
+        << Number(run.energy, 6) << ',' << Number(run.confidence, 6) << ',';
+    if (run.pose) {
+      const Eigen::Vector3d& c = run.pose->center_in_world;
+      const Eigen::Quaterniond& q = run.pose->cam_from_world;
+      csv << Number(c.x(), 4) << ',' << Number(c.y(), 4) << ',' << Number(c.z(), 4) << ','
+          << Number(q.w(), 9) << ',' << Number(q.x(), 9) << ',' << Number(q.y(), 9) << ','
+          << Number(q.z(), 9) << ',';
+    } else {
+      csv << ",,,,,,,";
+    }
+    if (run.error) {
+      csv << Number(run.error->translation_m, 4) << ',' << Number(run.error->horizontal_m, 4) << ','
+          << Number(run.error->rotation_deg, 5) << ',';
+    } else {
+      csv << ",,,";
+    }
+    csv << run.evaluations << ',' << Number(run.seconds, 3) << '\n';
+  }
+  return csv.str();
+}
+
+std::string SummaryJson(const std::string& dataset,
+                        const std::string& config,
+                        std::span<const RunRecord> runs) {
+  Json json = {{"dataset", dataset}, {"config", config}};
+  json.update(JsonOf(Summarize(runs)));
+  std::map<std::string, std::vector<RunRecord>> sets;
+  for (const RunRecord& run : runs) sets[run.set].push_back(run);
+  if (sets.size() > 1) {
+    for (const auto& [name, of_set] : sets) {
+      json["sets"][name.empty() ? "(none)" : name] = JsonOf(Summarize(of_set));
+    }
+  }
+  return json.dump(1) + "\n";
+}
+
+std::string PosesText(std::span<const RunRecord> runs, const Eigen::Vector3d& origin) {
+  std::ostringstream text;
+  text << "# cam_from_world poses in the manner of COLMAP's images.txt, relative to the origin\n"
+       << "# origin " << Number(origin.x(), 1) << ' ' << Number(origin.y(), 1) << ' '
+       << Number(origin.z(), 1) << " (east north height)\n"
+       << "# query seed qw qx qy qz tx ty tz\n";
+  for (const RunRecord& run : runs) {
+    if (!run.pose) continue;
+    const Pose relative{run.pose->cam_from_world, run.pose->center_in_world - origin};
+    const Eigen::Quaterniond& q = relative.cam_from_world;
+    const Eigen::Vector3d t = relative.ColmapTranslation();
+    text << run.query << ' ' << run.seed << ' ' << Number(q.w(), 9) << ' ' << Number(q.x(), 9) << ' '
+         << Number(q.y(), 9) << ' ' << Number(q.z(), 9) << ' ' << Number(t.x(), 5) << ' '
+         << Number(t.y(), 5) << ' ' << Number(t.z(), 5) << '\n';
+  }
+  return text.str();
+}
+
+std::map<std::string, Pose> ReadPosesCsv(const std::filesystem::path& path) {
+  std::istringstream stream(ReadFile(path));
+  std::string line;
+  std::getline(stream, line);
+  const std::vector<std::string> header = Fields(line);
+  const std::vector<std::string> wanted = {"query", "e", "n", "h", "qw", "qx", "qy", "qz"};
+  std::vector<std::size_t> columns;
+  for (const std::string& name : wanted) {
+    const auto it = std::find(header.begin(), header.end(), name);
+    if (it == header.end()) {
+      throw InputError(path.string(), "line 1", "no column \"" + name + "\"",
+                       "query,e,n,h,qw,qx,qy,qz");
+    }
+    columns.push_back(static_cast<std::size_t>(it - header.begin()));
+  }
+  std::map<std::string, Pose> poses;
+  for (int number = 2; std::getline(stream, line); ++number) {
+    const std::vector<std::string> fields = Fields(line);
+    if (fields.empty()) continue;
+    std::vector<double> values;
+    for (std::size_t i = 1; i < columns.size(); ++i) {
+      double value = NAN;
+      if (columns[i] < fields.size()) std::istringstream(fields[columns[i]]) >> value;
+      if (!std::isfinite(value)) {
+        throw InputError(path.string(), "line " + std::to_string(number), "\"" + line + "\"",
+                         "a number for " + wanted[i]);
+      }
+      values.push_back(value);
+    }
+    Pose pose;
+    pose.center_in_world = {values[0], values[1], values[2]};
+    pose.cam_from_world =
+        Eigen::Quaterniond(values[3], values[4], values[5], values[6]).normalized();
+    poses[fields[columns[0]]] = pose;
+  }
+  if (poses.empty()) throw InputError(path.string(), "", "no pose", "one line per query");
+  return poses;
+}
+
+}  // namespace ridgeline
