@@ -123,7 +123,7 @@ SkylineFrameResult ResultOf(const SkylineFrame& frame, const SequenceFrame& know
   SkylineFrameResult result;
   result.status = NameOf(frame.match.status);
   result.reason = frame.match.reason;
-  result.before_px = frame.match.distance_before_px;
+  result.before_px = frame.sensors_distance_px;
   result.after_px = frame.match.distance_after_px;
   result.start = known.start;
   if (frame.match.pose) result.pose = to_world(*frame.match.pose);

@@ -341,6 +341,13 @@ const char* NameOf(SkylineMatchStatus status) {
   return "";
 }
 
+double DistanceAt(const SkylineL1& real,
+                  const SkylineSource& source,
+                  const Pose& pose,
+                  const SkylineMatchOptions& options) {
+  return Matcher(real, source, pose, options).DistanceAt(pose);
+}
+
 SkylineMatchResult MatchSkyline(const SkylineL1& real,
                                 const SkylineSource& source,
                                 const Pose& start,

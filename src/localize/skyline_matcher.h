@@ -57,7 +57,7 @@ struct SkylineMatchOptions {
   double position_sigma_m = 6.0;
   double height_sigma_m = 1.0;
   // Distance at which a match is believed [px at 640], and by how much it may leave the start.
-  double max_distance_px = 12.0;
+  double max_distance_px = 8.0;
   // A match is ambiguous if a heading more than scan_step_deg * 2 away on the grid is no worse than
   // this many times the best distance, both increased by 1 px.
   double ambiguous_ratio = 1.15;
@@ -98,6 +98,12 @@ struct SkylineMatchResult {
 // Gives the virtual skyline seen from a position (local frame) within a sector.
 using SkylineSource =
     std::function<std::vector<Eigen::Vector3f>(const Eigen::Vector3d& position, const Sector&)>;
+
+// L1 distance at a pose [px at 640].
+double DistanceAt(const SkylineL1& real,
+                  const SkylineSource& source,
+                  const Pose& pose,
+                  const SkylineMatchOptions& options);
 
 // Corrects a pose so that the virtual skyline lies on the real one: the least L1 distance by the
 // downhill simplex.

@@ -14,22 +14,6 @@ double MillisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-Pose Corrected(const Pose& sensors, const ViewAngles& correction) {
-  ViewAngles angles = ViewAnglesOf(sensors.cam_from_world);
-  angles.heading_deg += correction.heading_deg;
-  angles.pitch_deg += correction.pitch_deg;
-  angles.roll_deg += correction.roll_deg;
-  return {CamFromWorld(angles), sensors.center_in_world};
-}
-
-ViewAngles CorrectionFrom(const Pose& sensors, const Pose& found) {
-  const ViewAngles a = ViewAnglesOf(sensors.cam_from_world);
-  const ViewAngles b = ViewAnglesOf(found.cam_from_world);
-  return {HeadingDifferenceDeg(b.heading_deg, a.heading_deg),
-          b.pitch_deg - a.pitch_deg,
-          HeadingDifferenceDeg(b.roll_deg, a.roll_deg)};
-}
-
 }  // namespace
 
 SkylineTrackOptions::SkylineTrackOptions() {
@@ -42,6 +26,7 @@ SkylineTrackOptions::SkylineTrackOptions() {
 void SkylineTrackOptions::Visit(OptionVisitor& v) {
   v.Field("extractor", extractor);
   v.Field("start", start);
+  v.Field("keyframe_every", keyframe_every);
   v.Group("skyline", [&](OptionVisitor& g) { skyline.Visit(g); });
   v.Group("canny", [&](OptionVisitor& g) { canny.Visit(g); });
   v.Group("l1", [&](OptionVisitor& g) { l1.Visit(g); });
@@ -55,6 +40,9 @@ void SkylineTrackOptions::Validate() const {
   if (start != "sensors" && start != "last") {
     throw InputError("", "start", '"' + start + '"', "sensors or last");
   }
+  if (keyframe_every < 0) {
+    throw InputError("", "keyframe_every", std::to_string(keyframe_every), "at least 0");
+  }
   skyline.Validate();
   canny.Validate();
   l1.Validate();
@@ -64,6 +52,23 @@ void SkylineTrackOptions::Validate() const {
 SkylineTracker::SkylineTracker(const Scene& scene, const SkylineTrackOptions& options)
     : scene_(scene), options_(options) {
   options_.Validate();
+}
+
+Pose SkylineTracker::Apply(const Correction& correction, const Pose& sensors) {
+  ViewAngles angles = ViewAnglesOf(sensors.cam_from_world);
+  angles.heading_deg += correction.angles.heading_deg;
+  angles.pitch_deg += correction.angles.pitch_deg;
+  angles.roll_deg += correction.angles.roll_deg;
+  return {CamFromWorld(angles), sensors.center_in_world + correction.shift};
+}
+
+SkylineTracker::Correction SkylineTracker::Between(const Pose& sensors, const Pose& found) {
+  const ViewAngles a = ViewAnglesOf(sensors.cam_from_world);
+  const ViewAngles b = ViewAnglesOf(found.cam_from_world);
+  return {{HeadingDifferenceDeg(b.heading_deg, a.heading_deg),
+           b.pitch_deg - a.pitch_deg,
+           HeadingDifferenceDeg(b.roll_deg, a.roll_deg)},
+          found.center_in_world - sensors.center_in_world};
 }
 
 SkylineFrame SkylineTracker::Track(const cv::Mat& bgr,
@@ -80,18 +85,25 @@ SkylineFrame SkylineTracker::Track(const cv::Mat& bgr,
   frame.times.clean_ms = MillisecondsSince(extracted);
 
   const Clock::time_point cleaned = Clock::now();
-  const bool from_last = options_.start == "last" && correction_.has_value();
-  frame.start = from_last ? Corrected(sensors, *correction_) : sensors;
   const auto source = [this](const Eigen::Vector3d& position, const Sector& sector) {
     return SkylineDirections(scene_.SkylineFrom(position, sector));
   };
-  frame.match = MatchSkyline(l1, source, frame.start, options_.match);
-  frame.times.match_ms = MillisecondsSince(cleaned);
-  if (frame.match.pose) {
-    correction_ = CorrectionFrom(sensors, *frame.match.pose);
-  } else {
-    correction_.reset();
+  const bool from_last = options_.start == "last";
+  SkylineMatchOptions match = options_.match;
+  if (from_last && options_.keyframe_every > 0) {
+    if (!correction_ || frames_since_key_ >= options_.keyframe_every) {
+      match.method = "6dof";
+      frames_since_key_ = 0;
+    }
+    ++frames_since_key_;
   }
+  frame.start = from_last && correction_ ? Apply(*correction_, sensors) : sensors;
+  frame.match = MatchSkyline(l1, source, frame.start, match);
+  frame.times.match_ms = MillisecondsSince(cleaned);
+
+  correction_.reset();
+  if (frame.match.pose) correction_ = Between(sensors, *frame.match.pose);
+  frame.sensors_distance_px = DistanceAt(l1, source, sensors, options_.match);
   return frame;
 }
 

@@ -18,9 +18,12 @@ namespace ridgeline {
 struct SkylineTrackOptions {
   // "path": ours; "canny": the paper's.
   std::string extractor = "path";
-  // Where a frame's match begins: "sensors", or "last": the sensors turned by what the last good
-  // match corrected (the paper's outlook), which a compass needs once rather than at every frame.
-  std::string start = "sensors";
+  // Where a frame's match begins: "sensors", or "last": the sensors with what the last good match
+  // corrected (the paper's outlook), since their errors drift slowly.
+  std::string start = "last";
+  // With start "last": the first of so many frames, and every frame after a failure, is matched in
+  // all six degrees of freedom, whatever match.method says for the others; 0: none.
+  int keyframe_every = 5;
   SkylineOptions skyline;
   CannySkylineOptions canny;
   SkylineL1Options l1;
@@ -44,6 +47,7 @@ struct SkylineFrameTimes {
 struct SkylineFrame {
   Skyline skyline;  // as extracted, in pixels of the picture
   Pose start;       // cam_from_local
+  double sensors_distance_px = 0.0;  // L1 at the pose by the sensors [px at 640]
   SkylineMatchResult match;
   SkylineFrameTimes times;
 };
@@ -62,8 +66,16 @@ class SkylineTracker {
  private:
   const Scene& scene_;
   const SkylineTrackOptions options_;
-  // What the last good match added to the sensors' angles [deg].
-  std::optional<ViewAngles> correction_;
+  // What the last good match added to the sensors' pose.
+  struct Correction {
+    ViewAngles angles;
+    Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+  };
+  static Pose Apply(const Correction& correction, const Pose& sensors);
+  static Correction Between(const Pose& sensors, const Pose& found);
+
+  std::optional<Correction> correction_;
+  int frames_since_key_ = 0;
 };
 
 }  // namespace ridgeline
