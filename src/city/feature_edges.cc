@@ -6,95 +6,20 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <unordered_map>
+#include <span>
 
 #include "base/parallel.h"
 #include "city/face_grid.h"
+#include "city/fold.h"
+#include "city/merge_edges.h"
+#include "city/mesh_edges.h"
 
 namespace ridgeline {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kGridCell = 8.0;             // [m]
-constexpr double kSameDirection = 0.087;      // 5 degrees: half-planes that lie on each other
-constexpr double kOpposite = -0.9;            // cosine between normals of faces back to back
-constexpr double kSamePlaneCosine = 0.99985;  // 1 degree: pieces that may be joined
-
-// An edge of one or more polygons, between two welded vertices.
-struct MeshEdge {
-  std::uint32_t a = 0;
-  std::uint32_t b = 0;
-  std::uint32_t first_use = 0;  // of EdgeTable::uses
-  std::uint32_t use_count = 0;
-};
-
-struct EdgeUse {
-  std::uint32_t face = 0;
-  bool forward =
-      false;  // the face has it from a to b: its interior is to the left about its normal
-};
-
-struct EdgeTable {
-  std::vector<MeshEdge> edges;
-  std::vector<EdgeUse> uses;
-  std::vector<std::uint32_t> edge_of_corner;  // parallel to FaceSet::corners
-};
-
-EdgeTable BuildEdgeTable(const FaceSet& set) {
-  EdgeTable table;
-  table.edge_of_corner.resize(set.corners.size());
-  std::unordered_map<std::uint64_t, std::uint32_t> index;
-  index.reserve(set.corners.size());
-  struct Entry {
-    std::uint32_t edge;
-    EdgeUse use;
-  };
-  std::vector<Entry> entries;
-  entries.reserve(set.corners.size());
-  for (std::uint32_t f = 0; f < set.faces.size(); ++f) {
-    const Face& face = set.faces[f];
-    for (std::uint32_t r = face.first_ring; r < face.first_ring + face.ring_count; ++r) {
-      const std::span<const std::uint32_t> ring = set.Ring(r);
-      for (std::size_t i = 0; i < ring.size(); ++i) {
-        const std::uint32_t from = ring[i];
-        const std::uint32_t to = ring[(i + 1) % ring.size()];
-        const std::uint32_t low = std::min(from, to);
-        const std::uint32_t high = std::max(from, to);
-        const std::uint64_t key = (std::uint64_t{low} << 32) | high;
-        const auto [it, is_new] =
-            index.try_emplace(key, static_cast<std::uint32_t>(table.edges.size()));
-        if (is_new) table.edges.push_back({low, high, 0, 0});
-        ++table.edges[it->second].use_count;
-        table.edge_of_corner[set.rings[r].first + i] = it->second;
-        entries.push_back({it->second, {f, from == low}});
-      }
-    }
-  }
-  std::uint32_t first = 0;
-  for (MeshEdge& edge : table.edges) {
-    edge.first_use = first;
-    first += edge.use_count;
-    edge.use_count = 0;
-  }
-  table.uses.resize(entries.size());
-  for (const Entry& entry : entries) {
-    MeshEdge& edge = table.edges[entry.edge];
-    table.uses[edge.first_use + edge.use_count++] = entry.use;
-  }
-  return table;
-}
-
-// A face as seen at a piece of an edge: it leaves the edge's line in direction `angle`.
-struct HalfPlane {
-  std::uint32_t face = 0;
-  double angle = 0.0;      // about the line, in the frame of the edge
-  double free_side = 0.0;  // +1: the free space is at larger angles, -1: at smaller ones
-};
-
-double AngleBetween(double a, double b) {
-  const double difference = std::abs(std::remainder(a - b, 2.0 * kPi));
-  return std::min(difference, 2.0 * kPi - difference);
-}
+constexpr double kGridCell = 8.0;    // [m]
+constexpr double kParallel = 0.087;  // sine of 5 degrees
 
 struct Piece {
   double from = 0.0;  // along the edge [m]
@@ -131,7 +56,7 @@ class EdgeFinder {
     for (const std::vector<FeatureEdge>& result : results) {
       edges.insert(edges.end(), result.begin(), result.end());
     }
-    return edges;
+    return MergeCollinear(set_, edges);
   }
 
  private:
@@ -174,7 +99,7 @@ class EdgeFinder {
       if (!piece) continue;
       piece->from = w.cuts[i];
       piece->to = w.cuts[i + 1];
-      Append(*piece, w.pieces);
+      w.pieces.push_back(*piece);
     }
     for (const Piece& piece : w.pieces) {
       FeatureEdge feature;
@@ -327,7 +252,7 @@ class EdgeFinder {
         const double s = (middle - a).dot(along) / length;
         if (s < 0.0 || s > length) continue;
         if ((middle - a - s / length * along).squaredNorm() > tolerance * tolerance) continue;
-        if (along.cross(line.direction).norm() < kSameDirection * length) return true;
+        if (along.cross(line.direction).norm() < kParallel * length) return true;
       }
     }
     return false;
@@ -353,20 +278,6 @@ class EdgeFinder {
     return inside;
   }
 
-  // Removes faces that hide each other: back to back (both), or one on the other (one of them).
-  void RemoveHidden(std::vector<HalfPlane>& planes) const {
-    for (std::size_t i = 0; i < planes.size(); ++i) {
-      for (std::size_t j = i + 1; j < planes.size(); ++j) {
-        if (AngleBetween(planes[i].angle, planes[j].angle) > kSameDirection) continue;
-        const double cosine =
-            set_.faces[planes[i].face].normal.dot(set_.faces[planes[j].face].normal);
-        planes.erase(planes.begin() + static_cast<std::ptrdiff_t>(j));
-        if (cosine < kOpposite) planes.erase(planes.begin() + static_cast<std::ptrdiff_t>(i));
-        return RemoveHidden(planes);
-      }
-    }
-  }
-
   bool AllOf(const std::vector<HalfPlane>& planes, SurfaceClass surface_class) const {
     return std::all_of(planes.begin(), planes.end(), [&](const HalfPlane& plane) {
       return set_.faces[plane.face].surface_class == surface_class;
@@ -375,7 +286,7 @@ class EdgeFinder {
 
   std::optional<Piece> Judge(std::vector<HalfPlane>& planes) const {
     const std::size_t met = planes.size();
-    RemoveHidden(planes);
+    RemoveHidden(set_, planes);
     if (planes.empty() || AllOf(planes, SurfaceClass::kClosure) ||
         AllOf(planes, SurfaceClass::kGround)) {
       return std::nullopt;
@@ -390,30 +301,6 @@ class EdgeFinder {
     return std::nullopt;
   }
 
-  struct Fold {
-    std::size_t first = 0;
-    std::size_t second = 0;
-    double angle = 0.0;
-  };
-
-  // Of the wedges of free space between consecutive faces, the one that is least flat.
-  static Fold SharpestFold(std::vector<HalfPlane>& planes) {
-    std::sort(planes.begin(), planes.end(), [](const HalfPlane& a, const HalfPlane& b) {
-      return a.angle < b.angle;
-    });
-    Fold best{0, 1, -1.0};
-    Fold best_free{0, 1, -1.0};
-    for (std::size_t i = 0; i < planes.size(); ++i) {
-      const std::size_t j = (i + 1) % planes.size();
-      const double wedge = planes[j].angle - planes[i].angle + (j == 0 ? 2.0 * kPi : 0.0);
-      const double fold = std::abs(kPi - wedge);
-      const bool is_free = planes[i].free_side > 0.0 && planes[j].free_side < 0.0;
-      if (fold > best.angle) best = {i, j, fold};
-      if (is_free && fold > best_free.angle) best_free = {i, j, fold};
-    }
-    return best_free.angle >= 0.0 ? best_free : best;
-  }
-
   bool IsSeam(std::uint32_t f0, std::uint32_t f1) const {
     const Face& a = set_.faces[f0];
     const Face& b = set_.faces[f1];
@@ -422,27 +309,6 @@ class EdgeFinder {
     };
     return roots_[a.building] != roots_[b.building] && a.surface_class == b.surface_class &&
            is_visible(a.surface_class);
-  }
-
-  bool Alike(std::uint32_t f0, std::uint32_t f1) const {
-    if (f0 == f1) return true;
-    if (f0 == kNoSurface || f1 == kNoSurface) return false;
-    const Face& a = set_.faces[f0];
-    const Face& b = set_.faces[f1];
-    return a.building == b.building && a.surface_class == b.surface_class &&
-           a.normal.dot(b.normal) > kSamePlaneCosine;
-  }
-
-  void Append(const Piece& piece, std::vector<Piece>& pieces) const {
-    if (!pieces.empty()) {
-      Piece& last = pieces.back();
-      if (last.to == piece.from && last.seam == piece.seam &&
-          Alike(last.surface0, piece.surface0) && Alike(last.surface1, piece.surface1)) {
-        last.to = piece.to;
-        return;
-      }
-    }
-    pieces.push_back(piece);
   }
 
   const FaceSet& set_;

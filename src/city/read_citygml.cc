@@ -2,13 +2,17 @@
 #include "city/read_citygml.h"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "base/random.h"
 #include "city/citygml_tags.h"
 #include "city/citygml_uses.h"
 #include "city/coordinate_list.h"
+#include "city/gml_polygon.h"
 #include "city/xml_stream.h"
 
 namespace ridgeline {
@@ -32,7 +36,7 @@ struct Scope {
 
 class CityGmlHandler final : public XmlHandler {
  public:
-  explicit CityGmlHandler(SourceModel& model) : model_(model) {}
+  explicit CityGmlHandler(SourceModel& model) : model_(model), polygon_(model) {}
 
   bool WantsText() const override { return collecting_; }
   void SetLineSource(const void* parser) override { parser_ = parser; }
@@ -103,10 +107,11 @@ class CityGmlHandler final : public XmlHandler {
     }
   }
 
-  std::string BuildingId() const {
-    if (stack_.empty() || stack_.back().building < 0) return {};
-    return model_.buildings[static_cast<std::size_t>(stack_.back().building)].id;
+  std::string BuildingIdOf(const Scope& scope) const {
+    if (scope.building < 0) return {};
+    return model_.buildings[static_cast<std::size_t>(scope.building)].id;
   }
+  std::string BuildingId() const { return stack_.empty() ? "" : BuildingIdOf(stack_.back()); }
 
   void CheckRoot(std::string_view local, const XmlAttributes& attributes) {
     if (local != "CityModel" && local != "FeatureCollection") {
@@ -176,8 +181,7 @@ class CityGmlHandler final : public XmlHandler {
         break;
       case GmlTag::kRing:
         in_ring_ = in_polygon_;
-        ring_numbers_.clear();
-        ring_dimension_ = 0;
+        polygon_.BeginRing();
         break;
       case GmlTag::kCoordinates:
       case GmlTag::kMatrix:
@@ -224,9 +228,7 @@ class CityGmlHandler final : public XmlHandler {
       }
       return;
     }
-    polygon_ = SourcePolygon{
-        static_cast<std::uint32_t>(model_.rings.size()), 0, std::string(attributes.Local("id"))};
-    polygon_failed_ = false;
+    polygon_.BeginPolygon(attributes.Local("id"));
   }
 
   void AddLink(std::string_view href, const Scope& scope) {
@@ -259,7 +261,7 @@ class CityGmlHandler final : public XmlHandler {
         if (collecting_) LeaveMatrix();
         break;
       case GmlTag::kRing:
-        if (in_ring_) LeaveRing();
+        if (in_ring_) polygon_.EndRing(BuildingIdOf(scope));
         in_ring_ = false;
         break;
       case GmlTag::kPolygon:
@@ -282,8 +284,7 @@ class CityGmlHandler final : public XmlHandler {
     collecting_ = false;
     const std::vector<double>& numbers = list_.numbers();
     if (in_ring_) {
-      ring_dimension_ = scope.dimension;
-      ring_numbers_.insert(ring_numbers_.end(), numbers.begin(), numbers.end());
+      polygon_.AddNumbers(numbers, scope.dimension);
     } else if (numbers.size() == 3) {
       implicit_.reference = Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
     }
@@ -300,74 +301,12 @@ class CityGmlHandler final : public XmlHandler {
         Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
   }
 
-  // Coordinates in pairs, although lists of triples were to be expected: seen where heights were
-  // stripped from a file. A triple reading of such a list would be nonsense, not a building.
-  bool RingLacksHeights() const {
-    const std::vector<double>& n = ring_numbers_;
-    if (ring_dimension_ == 2) return true;
-    const auto closed = [&n](std::size_t dimension) {
-      return n.size() % dimension == 0 && n.size() >= 4 * dimension &&
-             std::equal(n.begin(),
-                        n.begin() + static_cast<std::ptrdiff_t>(dimension),
-                        n.end() - static_cast<std::ptrdiff_t>(dimension));
-    };
-    return !closed(3) && closed(2);
-  }
-
-  void LeaveRing() {
-    const std::vector<double>& n = ring_numbers_;
-    const bool outer = polygon_.ring_count == 0;
-    if (RingLacksHeights()) {
-      RejectRing("polygons without heights (coordinates in pairs) dropped", true);
-      return;
-    }
-    if (n.size() % 3 != 0) {
-      RejectRing("polygons whose coordinates are not triples dropped", true);
-      return;
-    }
-    SourceRing ring{static_cast<std::uint32_t>(model_.points.size()), 0};
-    for (std::size_t i = 0; i < n.size(); i += 3) {
-      const Eigen::Vector3d point(n[i], n[i + 1], n[i + 2]);
-      if (ring.point_count > 0 && model_.points.back() == point) continue;
-      model_.points.push_back(point);
-      ++ring.point_count;
-    }
-    if (ring.point_count > 1 && model_.points[ring.first_point] == model_.points.back()) {
-      model_.points.pop_back();
-      --ring.point_count;
-    } else if (ring.point_count > 2) {
-      model_.tally.Add("rings closed that did not end where they start", BuildingId());
-    }
-    if (ring.point_count < 3) {
-      model_.points.resize(ring.first_point);
-      RejectRing(outer ? "polygons with fewer than 3 points dropped"
-                       : "holes with fewer than 3 points dropped",
-                 outer);
-      return;
-    }
-    model_.rings.push_back(ring);
-    ++polygon_.ring_count;
-  }
-
-  void RejectRing(const char* kind, bool whole_polygon) {
-    if (whole_polygon && polygon_failed_) return;
-    model_.tally.Add(kind, BuildingId());
-    polygon_failed_ = polygon_failed_ || whole_polygon;
-  }
-
   void LeavePolygon(const Scope& scope) {
-    if (polygon_.ring_count == 0 && !polygon_failed_) {
-      model_.tally.Add("polygons without coordinates dropped", BuildingId());
-      polygon_failed_ = true;
-    }
-    if (polygon_failed_) {
-      model_.rings.resize(polygon_.first_ring);
-      return;
-    }
+    const std::optional<std::uint32_t> polygon = polygon_.EndPolygon(BuildingIdOf(scope));
+    if (!polygon) return;
     GmlUse use = UseOf(scope);
-    use.index = static_cast<std::uint32_t>(model_.polygons.size());
+    use.index = *polygon;
     gml_.uses.push_back(use);
-    model_.polygons.push_back(std::move(polygon_));
   }
 
   void LeaveImplicit(const Scope& scope) {
@@ -388,11 +327,8 @@ class CityGmlHandler final : public XmlHandler {
   bool in_polygon_ = false;
   bool in_ring_ = false;
   bool in_reference_ = false;
-  bool polygon_failed_ = false;
-  int ring_dimension_ = 0;
   CoordinateList list_;
-  std::vector<double> ring_numbers_;
-  SourcePolygon polygon_;
+  GmlPolygonBuilder polygon_;
   GmlImplicit implicit_;
 };
 

@@ -197,8 +197,10 @@ TEST(FeatureEdges, SplitWallHasNoEdgeWithin) {
   EXPECT_TRUE(EdgesAt(model, {4, 0, 3}).empty());
   EXPECT_NEAR(LengthsOf(model).fold, 4.0 * (10 + 8 + 6), 1e-6);
   EXPECT_EQ(LengthsOf(model).border, 0.0);
-  // The two halves of the eaves are put together again or meet end to end.
-  EXPECT_GE(EdgesAt(model, {2, 0, 6}).size(), 1u);
+  // The eaves above the two halves are one edge.
+  const std::vector<FeatureEdge> eaves = EdgesAt(model, {2, 0, 6});
+  ASSERT_EQ(eaves.size(), 1u);
+  EXPECT_NEAR((eaves[0].b - eaves[0].a).norm(), 10.0, 1e-9);
 }
 
 TEST(FeatureEdges, FoldAngleIsThresholded) {
