@@ -70,6 +70,7 @@ struct ReportRun {
   std::vector<OverlayLayer> prior_layers;                // lines over the photo [px of the photo]
   std::vector<OverlayLayer> result_layers;
   std::vector<double> best_energy;  // after each evaluation, or at even steps; may be empty
+  double hfov_deg = 0.0;  // horizontal field of view; 0: not known
   double evaluations = 0.0;
   double seconds = 0.0;
   std::vector<std::pair<std::string, std::string>> facts;  // more rows for the table of the run
@@ -77,7 +78,9 @@ struct ReportRun {
 
 struct ReportPhoto {
   std::string name;  // for people, e.g. the file's name
-  cv::Mat picture;   // undistorted, 8-bit
+  cv::Mat picture;   // undistorted, 8-bit; may be smaller than the photo
+  int width = 0;     // of the photo, in which layers are given [px]; 0: those of the picture
+  int height = 0;
 };
 
 // A plot of points or lines, e.g. of a score study.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/report_json.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "report/map_shapes.h"
 #include "report/picture_file.h"
 #include "report/report_curves.h"
 
@@ -78,19 +78,6 @@ const char* OutcomeName(ReportOutcome outcome) {
       return "unknown";
   }
   return "";
-}
-
-// Outline of the 95 % ellipse of a covariance (chi-square with two degrees of freedom: 5.991).
-std::vector<Vector2d> EllipseOutline(const Vector2d& center, const Eigen::Matrix2d& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance);
-  std::vector<Vector2d> outline;
-  for (int i = 0; i <= 48; ++i) {
-    const double turn = 2.0 * 3.14159265358979323846 * i / 48;
-    const Vector2d axes = (5.991 * solver.eigenvalues().cwiseMax(0.0)).cwiseSqrt();
-    outline.push_back(center + solver.eigenvectors() * Vector2d(axes.x() * std::cos(turn),
-                                                                axes.y() * std::sin(turn)));
-  }
-  return outline;
 }
 
 // The point that the map's coordinates are relative to.
@@ -206,8 +193,8 @@ std::string SummaryJson(const ReportData& data) {
 
 std::string PhotoJson(const ReportPhoto& photo, int max_side_px) {
   return SafeDump({{"name", photo.name},
-                   {"width", photo.picture.cols},
-                   {"height", photo.picture.rows},
+                   {"width", photo.width > 0 ? photo.width : photo.picture.cols},
+                   {"height", photo.height > 0 ? photo.height : photo.picture.rows},
                    {"url", JpegDataUrl(photo.picture, max_side_px, 80)}});
 }
 

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/bench_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+
+#include "report/hillshade.h"
+#include "report/overlay_layers.h"
+
+namespace ridgeline {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+// The ground shown around the search box [m].
+constexpr double kMapMarginM = 15.0;
+// The longest side of a photo in a report [px].
+constexpr int kPhotoSidePx = 1400;
+
+std::string Text(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string Percent(double share) { return Text("%.0f %%", 100.0 * share); }
+
+ReportPose PoseOf(const Pose& pose) {
+  const ViewAngles angles = ViewAnglesOf(pose.cam_from_world);
+  return {pose.center_in_world, angles.heading_deg, angles.pitch_deg, angles.roll_deg};
+}
+
+Pose LocalOf(Pose pose, const Localizer& localizer) {
+  pose.center_in_world -= localizer.scene().model().origin_in_world;
+  return pose;
+}
+
+ReportOutcome OutcomeOf(const RunRecord& record) {
+  if (!record.has_truth) return record.pose ? ReportOutcome::kUnknown : ReportOutcome::kAbstained;
+  if (!record.pose) return ReportOutcome::kAbstained;
+  const bool right = record.error->translation_m <= 2.0 && record.error->rotation_deg <= 2.0;
+  return right ? ReportOutcome::kRight : ReportOutcome::kWrong;
+}
+
+ReportPhoto PhotoOf(const Query& query) {
+  ReportPhoto photo;
+  photo.name = query.image.filename().string();
+  const cv::Mat picture = UndistortImage(BgrOf(ReadPicture(query.image)), *query.camera);
+  photo.width = picture.cols;
+  photo.height = picture.rows;
+  const double scale =
+      std::min(1.0, static_cast<double>(kPhotoSidePx) / std::max(picture.cols, picture.rows));
+  cv::resize(picture, photo.picture, {}, scale, scale, cv::INTER_AREA);
+  return photo;
+}
+
+// Box, hillshade and footprints of the ground around the prior.
+void AddGround(const Localizer& localizer, const PoseSpaceOptions& ranges, ReportRun& run) {
+  const Vector2d origin = localizer.scene().model().origin_in_world.head<2>();
+  const Vector2d center = run.prior->position.head<2>();
+  const Vector2d reach(ranges.east_m, ranges.north_m);
+  const Vector2d lower = center - reach;
+  const Vector2d upper = center + reach;
+  run.search_box = {lower, {upper.x(), lower.y()}, upper, {lower.x(), upper.y()}, lower};
+
+  const Vector2d margin(kMapMarginM, kMapMarginM);
+  const Vector2d from = lower - margin;
+  const Vector2d to = upper + margin;
+  if (localizer.dtm() != nullptr) {
+    run.hillshade = ReportHillshade{
+        Hillshade(*localizer.dtm(), from - origin, to - origin, 160), from, to};
+  }
+  for (const auto& ring : localizer.footprints().rings()) {
+    std::vector<Vector2d> points;
+    Vector2d low = ring.front() + origin;
+    Vector2d high = low;
+    for (const Vector2d& p : ring) {
+      points.push_back(p + origin);
+      low = low.cwiseMin(points.back());
+      high = high.cwiseMax(points.back());
+    }
+    const bool near = (low.array() < to.array()).all() && (high.array() > from.array()).all();
+    if (near) run.footprints.push_back(std::move(points));
+  }
+}
+
+double HorizontalFieldDeg(const PinholeCamera& camera) {
+  return (std::atan(camera.cx / camera.fx) + std::atan((camera.width - camera.cx) / camera.fx)) *
+         180.0 / std::numbers::pi;
+}
+
+ReportEnergyMap MapOf(const EnergyMap& map) {
+  return {map.first, map.spacing_m, map.columns, map.rows, map.energies};
+}
+
+std::vector<std::pair<std::string, std::string>> FactsOf(const BenchRun& run) {
+  const Localization& localization = run.localization;
+  std::vector<std::pair<std::string, std::string>> facts = {
+      {"status", NameOf(localization.status)},
+      {"energy", Text("%.4f", localization.energy)},
+      {"confidence", Text("%.2f", localization.confidence)},
+      {"poses evaluated", std::to_string(localization.evaluations)},
+      {"time", Text("%.2f s", run.record.seconds)}};
+  for (const StageTime& stage : localization.times) {
+    facts.emplace_back("… " + stage.name, Text("%.2f s", stage.seconds));
+  }
+  if (localization.pose) {
+    facts.emplace_back("heading, standard deviation",
+                       Text("%.2f°", localization.spread.heading_sigma_deg));
+  }
+  for (const std::string& warning : localization.warnings) facts.emplace_back("warning", warning);
+  return facts;
+}
+
+ReportRun RunOf(const BenchRun& run,
+                const Query& query,
+                const Localizer& localizer,
+                const PoseSpaceOptions& ranges) {
+  const Localization& localization = run.localization;
+  ReportRun report;
+  report.id = run.record.query;
+  report.set = run.record.set;
+  report.seed = run.record.seed;
+  report.status = NameOf(localization.status);
+  report.reason = localization.reason;
+  report.outcome = OutcomeOf(run.record);
+  report.energy = run.record.energy;
+  report.confidence = run.record.confidence;
+  if (run.record.error) {
+    report.translation_m = run.record.error->translation_m;
+    report.rotation_deg = run.record.error->rotation_deg;
+  }
+  report.prior = PoseOf(PoseOfPrior(run.prior, localizer));
+  if (localization.pose) report.result = PoseOf(*localization.pose);
+  if (query.truth) report.truth = PoseOf(*query.truth);
+  for (const PoseMode& mode : localization.modes) {
+    report.modes.push_back({PoseOf(mode.pose), mode.energy});
+  }
+  if (localization.pose) report.position_covariance = localization.spread.position_covariance;
+  if (!localization.map.energies.empty()) report.map = MapOf(localization.map);
+  AddGround(localizer, ranges, report);
+  const PinholeCamera camera = query.camera->Pinhole();
+  report.hfov_deg = HorizontalFieldDeg(camera);
+  const Overlay overlay = ResultOverlay(localizer, camera, run);
+  report.prior_layers = {overlay.layers.front()};
+  report.result_layers.assign(overlay.layers.begin() + 1, overlay.layers.end());
+  report.evaluations = static_cast<double>(localization.evaluations);
+  report.seconds = run.record.seconds;
+  report.facts = FactsOf(run);
+  return report;
+}
+
+std::string ErrorText(const Spread& translation_m, const Spread& rotation_deg) {
+  return Text("%.2f m, ", translation_m.median) + Text("%.2f°", rotation_deg.median);
+}
+
+void AddSummary(std::span<const BenchRun> runs, ReportData& data) {
+  std::vector<RunRecord> records;
+  for (const BenchRun& run : runs) records.push_back(run.record);
+  const Summary summary = Summarize(records);
+  data.facts = {{"photos", std::to_string(summary.queries)},
+                {"runs", std::to_string(summary.all_runs)}};
+  if (summary.runs > 0) {
+    data.facts.emplace_back("within 2 m, 2°", Percent(summary.recall[2]));
+    data.facts.emplace_back("within 5 m, 5°", Percent(summary.recall[4]));
+    data.facts.emplace_back("median error", ErrorText(summary.translation_m, summary.rotation_deg));
+  }
+  data.facts.emplace_back("abstained", Percent(summary.abstained));
+  data.facts.emplace_back("time per photo", Text("%.2f s", summary.seconds_median));
+  data.facts.emplace_back("poses per second", Text("%.3g", summary.evaluations_per_second));
+  if (summary.runs < 2) return;
+
+  ReportTable table{"Recall", {"within", "of all runs", "95 % interval", "of the answered"}, {}};
+  for (std::size_t i = 0; i < kRecallThresholds.size(); ++i) {
+    const RecallThreshold& threshold = kRecallThresholds[i];
+    table.rows.push_back({Text("%g m, ", threshold.translation_m) + Text("%g°", threshold.rotation_deg),
+                          Percent(summary.recall[i]),
+                          Percent(summary.recall_ci95[i].lower) + " to " +
+                              Percent(summary.recall_ci95[i].upper),
+                          Percent(summary.recall_answered[i])});
+  }
+  data.tables.push_back(std::move(table));
+}
+
+}  // namespace
+
+Pose PoseOfPrior(const PosePrior& prior, const Localizer& localizer) {
+  const Vector3d origin = localizer.scene().model().origin_in_world;
+  double height = prior.height_in_world.value_or(origin.z());
+  if (!prior.height_in_world && localizer.dtm() != nullptr) {
+    const auto terrain = localizer.dtm()->HeightAt(prior.position_in_world - origin.head<2>());
+    height = origin.z() + terrain.value_or(0.0) + localizer.options().search.space.camera_height_m;
+  }
+  Pose pose;
+  pose.center_in_world = {prior.position_in_world.x(), prior.position_in_world.y(), height};
+  pose.cam_from_world = CamFromWorld(ViewAngles{
+      prior.heading_deg.value_or(0.0), prior.pitch_deg.value_or(0.0), prior.roll_deg.value_or(0.0)});
+  return pose;
+}
+
+Overlay ResultOverlay(const Localizer& localizer, const PinholeCamera& camera,
+                      const BenchRun& run) {
+  const Scene& scene = localizer.scene();
+  Overlay overlay;
+  overlay.layers.push_back(PlainEdgeLayer(
+      scene, camera, LocalOf(PoseOfPrior(run.prior, localizer), localizer), "model at the prior"));
+  const Localization& localization = run.localization;
+  if (!localization.pose && localization.modes.empty()) return overlay;
+  const Pose best = localization.pose ? *localization.pose : localization.modes.front().pose;
+  for (OverlayLayer& layer : ModelEdgeLayers(scene, camera, LocalOf(best, localizer))) {
+    overlay.layers.push_back(std::move(layer));
+  }
+  if (run.record.error) {
+    overlay.caption = Text("error %.2f m, ", run.record.error->translation_m) +
+                      Text("%.2f deg", run.record.error->rotation_deg);
+  } else if (!localization.pose) {
+    overlay.caption = "abstained; best candidate shown";
+  }
+  return overlay;
+}
+
+ReportData BenchReport(const ReportOrigin& origin,
+                       const std::vector<Query>& queries,
+                       const Localizer& localizer,
+                       const PoseSpaceOptions& ranges,
+                       std::span<const BenchRun> runs) {
+  ReportData data;
+  data.title = origin.title;
+  data.command = origin.command;
+  data.version = origin.version;
+  data.crs = origin.crs;
+  data.options_json = origin.options_json;
+  data.warnings = localizer.scene().model().warnings;
+  AddSummary(runs, data);
+  std::map<std::size_t, int> photo_of_query;
+  for (const BenchRun& run : runs) {
+    const Query& query = queries[run.query];
+    const auto [it, added] =
+        photo_of_query.emplace(run.query, static_cast<int>(data.photos.size()));
+    if (added) data.photos.push_back(PhotoOf(query));
+    data.runs.push_back(RunOf(run, query, localizer, ranges));
+    data.runs.back().photo = it->second;
+  }
+  return data;
+}
+
+}  // namespace ridgeline

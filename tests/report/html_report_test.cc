@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/html_report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "report/example_report.h"
+#include "report/report_json.h"
+
+namespace ridgeline {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(HtmlReport, TakesNothingFromDataAsMarkup) {
+  const std::string page = HtmlReport(testing::ExampleReport(3));
+  EXPECT_THAT(page, Not(HasSubstr("<script>alert")));
+  EXPECT_THAT(page, Not(HasSubstr("<b>S")));
+  EXPECT_THAT(page, HasSubstr("<title>Bench of &quot;Müller &amp; &lt;b&gt;Söhne&lt;/b&gt;&quot;"));
+}
+
+TEST(HtmlReport, LoadsNothingFromTheNetwork) {
+  const std::string page = HtmlReport(testing::ExampleReport(3));
+  EXPECT_THAT(page, HasSubstr("default-src 'none'"));
+  for (const char* load : {"<link", "src=\"http", "@import", "url(http"}) {
+    EXPECT_THAT(page, Not(HasSubstr(load)));
+  }
+}
+
+TEST(HtmlReport, KeepsTheLicenceOfThePlottingLibrary) {
+  if (!ReportHasPlots()) GTEST_SKIP() << "this build has no plotting library (npm was missing)";
+  EXPECT_THAT(HtmlReport(testing::ExampleReport(1)), HasSubstr("Permission is hereby granted"));
+}
+
+TEST(ReportJson, ReadsBackWithTheStrangestNames) {
+  const ReportData data = testing::ExampleReport(8);
+  const auto summary = nlohmann::json::parse(SummaryJson(data));
+  ASSERT_EQ(summary["runs"].size(), 8u);
+  EXPECT_EQ(summary["runs"][0]["id"], data.runs[0].id);
+  EXPECT_EQ(summary["runs"][3]["outcome"], "wrong");
+  EXPECT_EQ(summary["runs"][7]["outcome"], "abstained");
+  EXPECT_TRUE(summary["runs"][7]["translation"].is_null());
+}
+
+TEST(ReportJson, BytesThatAreNotUtf8DoNotBreakIt) {
+  ReportData data;
+  data.title = "bad \xff name";
+  EXPECT_NO_THROW(nlohmann::json::parse(SummaryJson(data)));
+}
+
+TEST(ReportJson, MapsAreRelativeToThePriorWithNullForNoPose) {
+  const ReportData data = testing::ExampleReport(1);
+  const auto detail = nlohmann::json::parse(RunDetailJson(data.runs[0]));
+  EXPECT_NEAR(detail["origin"][0].get<double>(), data.runs[0].prior->position.x(), 1e-3);
+  EXPECT_NEAR(detail["map"]["east"].get<double>(),
+              data.runs[0].map->first.x() - data.runs[0].prior->position.x(),
+              2e-3);
+  EXPECT_TRUE(detail["map"]["energies"][0].is_null());
+  EXPECT_FALSE(detail["map"]["energies"][20].is_null());
+}
+
+TEST(HtmlReport, AThousandQueriesStayBelowFortyMegabytes) {
+  EXPECT_LT(HtmlReport(testing::ExampleReport(1000)).size(), 40u << 20);
+}
+
+}  // namespace
+}  // namespace ridgeline
