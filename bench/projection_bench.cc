@@ -14,6 +14,7 @@
 #include "city/read_city.h"
 #include "city/terrain.h"
 #include "projection/scene.h"
+#include "projection/surface_panorama.h"
 #include "projection/visibility_cache.h"
 #include "projection/zbuffer_hough.h"
 #include "support/synthetic_city.h"
@@ -114,6 +115,18 @@ void SkylineMunichTerrain(benchmark::State& state) {
   }
 }
 BENCHMARK(SkylineMunichTerrain)->Unit(benchmark::kMillisecond);
+
+// As the scores use it: 120 x 60 degrees at 0.02 rad.
+void SurfacePanoramaMunich(benchmark::State& state) {
+  const World& world = MunichWorld();
+  const PanoramaRange range{world.LookingAhead(), -0.5, 0.5, 0.02};
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const SurfacePanorama panorama = SurfacesFrom(*world.scene, GridPosition(world, i++), range);
+    benchmark::DoNotOptimize(panorama.surfaces.data());
+  }
+}
+BENCHMARK(SurfacePanoramaMunich)->Unit(benchmark::kMillisecond);
 
 void ZbufferHoughMunich(benchmark::State& state) {
   const World& world = MunichWorld();

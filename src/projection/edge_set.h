@@ -59,6 +59,10 @@ class EdgeSet {
   const std::vector<SceneEdge>& edges() const { return edges_; }
   // Folds below the model's least angle; they follow the feature edges in SceneEdge::index.
   const std::vector<FeatureEdge>& weak_folds() const { return weak_folds_; }
+  std::size_t memory_bytes() const {
+    return edges_.size() * sizeof(SceneEdge) + weak_folds_.size() * sizeof(FeatureEdge) +
+           clusters_.size() * sizeof(Cluster);
+  }
 
  private:
   // Whether the faces of an edge allow it to be seen.

@@ -38,6 +38,9 @@ class Horizon {
 
   // Azimuth step [rad]: a full turn divided by a whole number, at most the step asked for.
   double step() const { return step_; }
+  std::size_t memory_bytes() const {
+    return edges_.size() * sizeof(Edge) + clusters_.size() * sizeof(Cluster);
+  }
 
  private:
   struct Edge {

@@ -3,6 +3,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
@@ -45,6 +46,26 @@ void AttachMesh(RTCDevice device,
   rtcCommitGeometry(geometry);
   rtcAttachGeometryByID(scene, geometry, id);
   rtcReleaseGeometry(geometry);
+}
+
+RTCRayHit8 RaysFrom(const Eigen::Vector3f& origin) {
+  RTCRayHit8 rays{};
+  for (int k = 0; k < kPacket; ++k) {
+    rays.ray.org_x[k] = origin.x();
+    rays.ray.org_y[k] = origin.y();
+    rays.ray.org_z[k] = origin.z();
+    rays.ray.mask[k] = ~0u;
+  }
+  return rays;
+}
+
+void SetRay(RTCRayHit8& rays, std::size_t k, const Eigen::Vector3f& direction) {
+  rays.ray.dir_x[k] = direction.x();
+  rays.ray.dir_y[k] = direction.y();
+  rays.ray.dir_z[k] = direction.z();
+  rays.ray.tnear[k] = 0.0f;
+  rays.ray.tfar[k] = std::numeric_limits<float>::infinity();
+  rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
 }
 
 }  // namespace
@@ -117,6 +138,29 @@ std::optional<RayHit> RayScene::Cast(const Eigen::Vector3f& from,
                 Eigen::Vector3f(ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z).normalized()};
 }
 
+void RayScene::CastMany(const Eigen::Vector3f& from,
+                        std::span<const Eigen::Vector3f> directions,
+                        std::span<std::uint32_t> surfaces) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  RTCRayHit8 rays = RaysFrom(from);
+  alignas(32) std::array<int, kPacket> valid{};
+  for (std::size_t first = 0; first < directions.size(); first += kPacket) {
+    const std::size_t count = std::min<std::size_t>(kPacket, directions.size() - first);
+    for (std::size_t k = 0; k < kPacket; ++k) {
+      valid[k] = k < count ? -1 : 0;
+      SetRay(rays, k, directions[first + std::min(k, count - 1)]);
+    }
+    rtcIntersect8(valid.data(), impl_->scene, &context, &rays);
+    for (std::size_t k = 0; k < count; ++k) {
+      const bool is_hit = rays.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID;
+      surfaces[first + k] =
+          is_hit ? impl_->Surface(rays.hit.geomID[k], rays.hit.primID[k]) : kNoSurface;
+    }
+  }
+}
+
 ViewBuffers RayScene::Render(const PinholeCamera& camera,
                              const Pose& cam_from_local,
                              bool normals) const {
@@ -135,26 +179,14 @@ ViewBuffers RayScene::Render(const PinholeCamera& camera,
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  RTCRayHit8 rays{};
-  for (int k = 0; k < kPacket; ++k) {
-    rays.ray.org_x[k] = origin.x();
-    rays.ray.org_y[k] = origin.y();
-    rays.ray.org_z[k] = origin.z();
-    rays.ray.mask[k] = ~0u;
-  }
+  RTCRayHit8 rays = RaysFrom(origin);
   alignas(32) std::array<int, kPacket> valid{};
   for (int y = 0; y < camera.height; ++y) {
     const Eigen::Vector3f row_start =
         (local_from_cam * camera.RayFromImage({0.5, y + 0.5})).cast<float>();
     for (int x = 0; x < camera.width; x += kPacket) {
       for (int k = 0; k < kPacket; ++k) {
-        const Eigen::Vector3f direction = row_start + static_cast<float>(x + k) * step_x;
-        rays.ray.dir_x[k] = direction.x();
-        rays.ray.dir_y[k] = direction.y();
-        rays.ray.dir_z[k] = direction.z();
-        rays.ray.tnear[k] = 0.0f;
-        rays.ray.tfar[k] = infinity;
-        rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+        SetRay(rays, static_cast<std::size_t>(k), row_start + static_cast<float>(x + k) * step_x);
         valid[k] = x + k < camera.width ? -1 : 0;
       }
       rtcIntersect8(valid.data(), impl_->scene, &context, &rays);

@@ -161,11 +161,11 @@ std::optional<double> Scene::Raycast(const Eigen::Vector3d& from,
   return hit->distance;
 }
 
-std::uint32_t Scene::SurfaceAlong(const Eigen::Vector3d& from,
-                                  const Eigen::Vector3d& direction) const {
-  const std::optional<RayHit> hit =
-      impl_->rays.Cast(from.cast<float>(), direction.normalized().cast<float>());
-  return hit ? hit->surface : kNoSurface;
+std::vector<std::uint32_t> Scene::SurfacesAlong(
+    const Eigen::Vector3d& from, std::span<const Eigen::Vector3f> directions) const {
+  std::vector<std::uint32_t> surfaces(directions.size());
+  impl_->rays.CastMany(from.cast<float>(), directions, surfaces);
+  return surfaces;
 }
 
 const CityModel& Scene::model() const { return impl_->model; }
@@ -173,7 +173,8 @@ const ProjectionOptions& Scene::options() const { return impl_->options; }
 const FeatureEdge& Scene::edge(std::uint32_t index) const { return impl_->Feature(index); }
 std::size_t Scene::edge_count() const { return impl_->edges.edges().size(); }
 std::size_t Scene::memory_bytes() const {
-  return impl_->buildings.memory_bytes() + impl_->ground.memory_bytes() + impl_->rays.memory_bytes();
+  return impl_->buildings.memory_bytes() + impl_->ground.memory_bytes() +
+         impl_->rays.memory_bytes() + impl_->edges.memory_bytes() + impl_->horizon.memory_bytes();
 }
 
 }  // namespace ridgeline

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/options.h"
@@ -101,15 +102,17 @@ class Scene {
   // Distance [m] to the first hit of a ray, nullopt: sky.
   std::optional<double> Raycast(const Eigen::Vector3d& from, const Eigen::Vector3d& direction) const;
 
-  // Surface hit first by a ray; kTerrainSurface, or kNoSurface for the sky.
-  std::uint32_t SurfaceAlong(const Eigen::Vector3d& from, const Eigen::Vector3d& direction) const;
+  // The surfaces hit first by rays from one point: kTerrainSurface for the terrain, kNoSurface for
+  // the sky. In packets: fast if directions next to each other in the list are so in space.
+  std::vector<std::uint32_t> SurfacesAlong(const Eigen::Vector3d& from,
+                                           std::span<const Eigen::Vector3f> directions) const;
 
   const CityModel& model() const;
   const ProjectionOptions& options() const;
   // The edge of VisiblePiece::edge.
   const FeatureEdge& edge(std::uint32_t index) const;
   std::size_t edge_count() const;
-  // Of the ray and occlusion structures, without the model.
+  // Of everything the scene keeps, without the model.
   std::size_t memory_bytes() const;
 
  private:

@@ -32,18 +32,23 @@ SurfacePanorama SurfacesFrom(const Scene& scene,
   panorama.rows = std::max(
       1,
       static_cast<int>(std::ceil((range.highest_elevation - range.lowest_elevation) / range.step)) + 1);
-  panorama.surfaces.resize(static_cast<std::size_t>(panorama.columns) * panorama.rows);
-  std::size_t i = 0;
+  std::vector<Eigen::Vector2f> horizontal;  // per column
+  horizontal.reserve(static_cast<std::size_t>(panorama.columns));
+  for (int column = 0; column < panorama.columns; ++column) {
+    const double azimuth = panorama.first_azimuth + column * panorama.step;
+    horizontal.emplace_back(std::sin(azimuth), std::cos(azimuth));
+  }
+  std::vector<Eigen::Vector3f> directions;
+  directions.reserve(static_cast<std::size_t>(panorama.columns) * panorama.rows);
   for (int row = 0; row < panorama.rows; ++row) {
     const double elevation = panorama.first_elevation + row * panorama.step;
-    for (int column = 0; column < panorama.columns; ++column, ++i) {
-      const double azimuth = panorama.first_azimuth + column * panorama.step;
-      const Eigen::Vector3d direction(std::sin(azimuth) * std::cos(elevation),
-                                      std::cos(azimuth) * std::cos(elevation),
-                                      std::sin(elevation));
-      panorama.surfaces[i] = scene.SurfaceAlong(position, direction);
+    const auto cosine = static_cast<float>(std::cos(elevation));
+    const auto sine = static_cast<float>(std::sin(elevation));
+    for (const Eigen::Vector2f& h : horizontal) {
+      directions.emplace_back(cosine * h.x(), cosine * h.y(), sine);
     }
   }
+  panorama.surfaces = scene.SurfacesAlong(position, directions);
   return panorama;
 }
 

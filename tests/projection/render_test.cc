@@ -3,12 +3,14 @@
 
 #include <cmath>
 #include <opencv2/core.hpp>
+#include <optional>
 
 #include "base/error.h"
 #include "base/random.h"
 #include "camera/pose.h"
 #include "projection/rasterizer.h"
 #include "projection/scene.h"
+#include "projection/surface_panorama.h"
 #include "projection/zbuffer_hough.h"
 #include "support/synthetic_city.h"
 #include "support/synthetic_terrain.h"
@@ -67,6 +69,34 @@ TEST(Render, TerrainIsHitAndNamed) {
   EXPECT_EQ(buffers.surfaces[221 * 320 + 100], kTerrainSurface);
   EXPECT_NEAR(buffers.depth.at<float>(221, 100), 2.0 * 250.0 / 100.5, 1e-4);
   EXPECT_NEAR(buffers.normals.at<cv::Vec3f>(221, 100)[2], 1.0f, 1e-6f);
+}
+
+TEST(SurfacePanorama, AgreesWithSingleRays) {
+  const CityModel model = MakeCity(TownHouses(2, 2, 32));
+  const Scene scene(model, nullptr, {});
+  const Eigen::Vector3d eye(60, 60, 2);
+  const PanoramaRange range{{3.0, 0.7}, -0.3, 0.5, 0.03};
+  const SurfacePanorama panorama = SurfacesFrom(scene, eye, range);
+  ASSERT_EQ(panorama.surfaces.size(),
+            static_cast<std::size_t>(panorama.columns) * panorama.rows);
+  std::size_t i = 0;
+  for (int row = 0; row < panorama.rows; ++row) {
+    for (int column = 0; column < panorama.columns; ++column, ++i) {
+      const double azimuth = panorama.first_azimuth + column * panorama.step;
+      const double elevation = panorama.first_elevation + row * panorama.step;
+      const Eigen::Vector3d direction(std::sin(azimuth) * std::cos(elevation),
+                                      std::cos(azimuth) * std::cos(elevation),
+                                      std::sin(elevation));
+      const std::optional<double> distance = scene.Raycast(eye, direction);
+      ASSERT_EQ(panorama.surfaces[i] != kNoSurface, distance.has_value()) << row << " " << column;
+      EXPECT_EQ(panorama.Find(direction.cast<float>()), &panorama.surfaces[i]);
+      if (!distance) continue;
+      const Eigen::Vector3d normal =
+          model.surfaces[panorama.surfaces[i]].normal.cast<double>();
+      EXPECT_LT(normal.dot(direction), 0.0) << "the faces of closed houses are seen from outside";
+    }
+  }
+  EXPECT_EQ(panorama.Find({0.0f, 1.0f, 0.0f}), nullptr) << "behind";
 }
 
 TEST(Rasterizer, AgreesWithRays) {
