@@ -13,7 +13,7 @@ namespace ridgeline {
 class CoordinateList {
  public:
   // Longest list accepted; a ring of a building has dozens of numbers.
-  static constexpr std::size_t kMaxNumbers = 30'000'000;
+  static constexpr std::size_t kMaxNumbers = 3'000'000;
 
   void Begin();
   // Both throw std::invalid_argument holding the word that is not a finite number.

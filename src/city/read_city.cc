@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "city/read_city.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -39,31 +40,6 @@ std::optional<Crs> ParseOption(const char* field, const std::string& text) {
                      "a reference system such as EPSG:25832 or EPSG:25832+7837");
   }
   return crs;
-}
-
-std::vector<fs::path> ListFiles(const std::vector<fs::path>& paths) {
-  std::vector<fs::path> files;
-  for (const fs::path& path : paths) {
-    std::error_code error;
-    if (!fs::is_directory(path, error)) {
-      files.push_back(path);
-      continue;
-    }
-    std::vector<fs::path> found;
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path)) {
-      if (entry.is_regular_file() && LooksLikeModelFile(entry.path())) {
-        found.push_back(entry.path());
-      }
-    }
-    if (found.empty())
-      throw InputError(path.string(),
-                       "",
-                       "a folder without model files",
-                       "*.gml, *.xml, *.json, *.jsonl, *.obj or *.ply");
-    std::sort(found.begin(), found.end());
-    files.insert(files.end(), found.begin(), found.end());
-  }
-  return files;
 }
 
 // The system of one file: the option's, or what its srsNames agree on.
@@ -109,6 +85,57 @@ void WarnOfEllipsoidalHeights(SourceModel& source,
   source.tally.Add("files with heights above the ellipsoid; heights above sea level differ by " +
                        metres + " (city.height_offset_m moves the model)",
                    source.file);
+}
+
+// Buildings without geometry of their own count by their parts; without those they stay, so that
+// they are named.
+bool IsInRegion(const CityRegion& region,
+                const SourceModel& source,
+                const SourceBuilding& building,
+                bool has_parts) {
+  Eigen::AlignedBox3d box;
+  for (const SourceMember& member : building.members) {
+    const SourceRing& ring = source.rings[source.polygons[member.polygon].first_ring];
+    for (std::uint32_t p = 0; p < ring.point_count; ++p) {
+      box.extend(source.points[ring.first_point + p]);
+    }
+  }
+  if (box.isEmpty()) return !has_parts;
+  return region.Includes(Eigen::AlignedBox2d(box.min().head<2>(), box.max().head<2>()),
+                         box.sizes().z());
+}
+
+// Removes the buildings that the region leaves out. Wholes stay for the sake of their parts,
+// without geometry of their own.
+void KeepRegion(const CityRegion& region, SourceModel& source) {
+  std::vector<bool> has_parts(source.buildings.size(), false);
+  for (const SourceBuilding& building : source.buildings) {
+    if (building.parent >= 0) has_parts[static_cast<std::size_t>(building.parent)] = true;
+  }
+  std::vector<bool> kept(source.buildings.size(), false);
+  for (std::size_t b = 0; b < source.buildings.size(); ++b) {
+    if (!IsInRegion(region, source, source.buildings[b], has_parts[b])) {
+      source.buildings[b].members.clear();
+      continue;
+    }
+    int whole = static_cast<int>(b);
+    while (whole >= 0) {
+      kept[static_cast<std::size_t>(whole)] = true;
+      whole = source.buildings[static_cast<std::size_t>(whole)].parent;
+    }
+  }
+  std::vector<int> new_index(source.buildings.size(), -1);
+  std::vector<SourceBuilding> buildings;
+  for (std::size_t b = 0; b < source.buildings.size(); ++b) {
+    if (!kept[b]) continue;
+    new_index[b] = static_cast<int>(buildings.size());
+    buildings.push_back(std::move(source.buildings[b]));
+  }
+  for (SourceBuilding& building : buildings) {
+    if (building.parent >= 0)
+      building.parent = new_index[static_cast<std::size_t>(building.parent)];
+  }
+  source.buildings = std::move(buildings);
 }
 
 // Moves all sources to one projected system and returns it.
@@ -165,14 +192,17 @@ void CityOptions::Validate() const {
 ProjectedSources ReadProjectedSources(const std::vector<fs::path>& paths,
                                       const CityOptions& options) {
   options.Validate();
-  const std::vector<fs::path> files = ListFiles(paths);
+  const std::vector<fs::path> files = ListModelFiles(paths);
   if (files.empty()) throw InputError("--model", "", "no file", "one or more model files");
   ProjectedSources result;
   result.sources.resize(files.size());
   ParallelFor(files.size(), options.threads, [&](std::size_t i) {
-    result.sources[i] = ReadSource(files[i]);
+    result.sources[i] = ReadSource(files[i], options.region);
   });
   result.crs = ProjectSources(result.sources, options);
+  if (options.region) {
+    for (SourceModel& source : result.sources) KeepRegion(*options.region, source);
+  }
   return result;
 }
 

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/options.h"
 #include "city/city_model.h"
+#include "city/city_region.h"
 
 namespace ridgeline {
 
@@ -32,6 +34,8 @@ struct CityOptions {
   double joint_m = 0.35;
   // Threads; 0: all.
   int threads = 0;
+  // Not of the configuration: the part of the city that is wanted. Empty: all of it.
+  std::optional<CityRegion> region;
 
   void Visit(OptionVisitor& v) {
     v.Field("model_crs", model_crs);
@@ -49,9 +53,10 @@ struct CityOptions {
 };
 
 // Reads model files (folders: every model file in them) into one model: CityGML 1.0, 2.0, 3.0 (also
-// gzipped), CityJSON 1.0 to 2.0 and CityJSONSeq, OBJ and PLY. Throws InputError for a missing,
-// truncated or unreadable file, for files in different systems, and for a model without any
-// building that has a volume. What is dropped or repaired is named in CityModel::warnings.
+// gzipped), CityJSON 1.0 to 2.0 and CityJSONSeq, OBJ, PLY, and stores of WriteCityStore. Throws
+// InputError for a missing, truncated or unreadable file, for files in different systems, and for a
+// model without any building that has a volume. What is dropped or repaired is named in
+// CityModel::warnings.
 CityModel ReadCity(const std::vector<std::filesystem::path>& paths, const CityOptions& options);
 
 }  // namespace ridgeline

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <vector>
 
+#include "city/city_region.h"
 #include "city/source_model.h"
 
 namespace ridgeline {
@@ -11,8 +14,15 @@ namespace ridgeline {
 // *.xml and *.json that say CityModel or CityJSON near their beginning; all also with .gz.
 bool LooksLikeModelFile(const std::filesystem::path& path);
 
+// The files that paths stand for: a folder means every model file in it and below it, by name.
+// Throws InputError for a folder without any.
+std::vector<std::filesystem::path> ListModelFiles(const std::vector<std::filesystem::path>& paths);
+
 // Reads a model file of any known format, told by its name, in its own coordinates. Throws
 // InputError for a file that is missing, damaged, or of no known format.
-SourceModel ReadSource(const std::filesystem::path& path);
+//
+// @param region  Of a store (*.gpkg) only these buildings are read; other formats are read whole.
+SourceModel ReadSource(const std::filesystem::path& path,
+                       const std::optional<CityRegion>& region = {});
 
 }  // namespace ridgeline
