@@ -5,11 +5,14 @@
 #include <cassert>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <pagmo/algorithm.hpp>
 #include <pagmo/algorithms/cmaes.hpp>
 #include <pagmo/algorithms/de.hpp>
 #include <pagmo/population.hpp>
 #include <pagmo/problem.hpp>
+
+#include "optim/sobol.h"
 
 namespace ridgeline {
 namespace {
@@ -88,11 +91,34 @@ pagmo::population MakePopulation(const TapeProblem& problem, const Batch& first)
   return population;
 }
 
-// pagmo::de never says that it has converged; the population does.
-bool Converged(const Batch& generation, double tolerance) {
+// pagmo::de never says that it has converged; its generations do, by energies or by places.
+bool Converged(const Batch& generation, const DifferentialEvolutionOptions& options) {
   const auto [least, greatest] =
       std::minmax_element(generation.energies.begin(), generation.energies.end());
-  return *greatest - *least < tolerance;
+  if (*greatest - *least < options.ftol) return true;
+  for (std::size_t d = 0; d < generation.points[0].size(); ++d) {
+    const auto [low, high] =
+        std::minmax_element(generation.points.begin(),
+                            generation.points.end(),
+                            [d](const UnitPoint& a, const UnitPoint& b) { return a[d] < b[d]; });
+    if ((*high)[d] - (*low)[d] > options.xtol) return false;
+  }
+  return true;
+}
+
+// The best points of a batch, best first.
+Batch BestOf(const Batch& batch, std::size_t count) {
+  std::vector<std::size_t> order(batch.points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return batch.energies[a] < batch.energies[b];
+  });
+  Batch best;
+  for (std::size_t i = 0; i < std::min(count, order.size()); ++i) {
+    best.points.push_back(batch.points[order[i]]);
+    best.energies.push_back(batch.energies[order[i]]);
+  }
+  return best;
 }
 
 }  // namespace
@@ -129,14 +155,17 @@ SearchRoutine DifferentialEvolution(StrategyContext context, DifferentialEvoluti
   static const std::uint64_t kStage = HashText("optim.de");
   Random random(context.seed, kStage);
   const std::size_t d = context.dimension;
-  const auto anywhere = [&] { return UniformPoint(random, d); };
+  SobolSequence sobol(d, context.seed);
   const int size = PopulationSize(options.population, 10.0 + 2.0 * static_cast<double>(d));
   for (UnitPoint start = context.start;; start.clear()) {
     Batch first;
-    first.redraw = anywhere;
+    first.redraw = [&sobol] { return sobol.Next(); };
     if (!start.empty()) first.points.push_back(start);
-    while (static_cast<int>(first.points.size()) < size) first.points.push_back(anywhere());
+    while (static_cast<int>(first.points.size()) < std::max(size, options.first_points)) {
+      first.points.push_back(sobol.Next());
+    }
     co_yield first;
+    const Batch best = BestOf(first, static_cast<std::size_t>(size));
     const auto tape = std::make_shared<Tape>();
     TapeProblem problem{tape, UnitPoint(d, 0.0), UnitPoint(d, 1.0)};
     for (std::size_t k = 0; k < d; ++k) {
@@ -152,10 +181,10 @@ SearchRoutine DifferentialEvolution(StrategyContext context, DifferentialEvoluti
                                                0.0,
                                                0.0,
                                                Seed32(random))};
-    SearchRoutine run = Evolve(algorithm, MakePopulation(problem, first), tape, context.periodic);
+    SearchRoutine run = Evolve(algorithm, MakePopulation(problem, best), tape, context.periodic);
     while (Batch* batch = run.Next()) {
       co_yield *batch;
-      if (Converged(*batch, options.ftol)) break;
+      if (Converged(*batch, options)) break;
     }
   }
 }

@@ -11,8 +11,8 @@ namespace ridgeline {
 // population. Coordinates outside of the cube are folded into it, see FoldIntoCube().
 SearchRoutine CmaEs(StrategyContext context, CmaEsOptions options);
 
-// Differential evolution (Storn and Price 1997) by pagmo2, with restarts at random when the
-// population has converged. Its first population holds context.start.
+// Differential evolution (Storn and Price 1997) by pagmo2. The first population is the best of some
+// Sobol points and context.start; when the population has converged another one begins.
 SearchRoutine DifferentialEvolution(StrategyContext context, DifferentialEvolutionOptions options);
 
 }  // namespace ridgeline

@@ -56,7 +56,9 @@ void ValidatePopulations(const CmaEsOptions& cmaes, const DifferentialEvolutionO
           de.crossover,
           "a value in [0, 1]");
   Require(de.variant >= 1 && de.variant <= 10, "de.variant", de.variant, "1 ... 10");
+  Require(de.first_points >= 0, "de.first_points", de.first_points, ">= 0");
   Require(de.ftol >= 0.0, "de.ftol", de.ftol, ">= 0");
+  Require(de.xtol >= 0.0, "de.xtol", de.xtol, ">= 0");
 }
 
 void ValidateNelderMead(const NelderMeadOptions& options) {
@@ -121,8 +123,10 @@ void DifferentialEvolutionOptions::Visit(OptionVisitor& v) {
   v.Field("population", population);
   v.Field("weight", weight);
   v.Field("crossover", crossover);
+  v.Field("first_points", first_points);
   v.Field("variant", variant);
   v.Field("ftol", ftol);
+  v.Field("xtol", xtol);
 }
 
 void NelderMeadOptions::Visit(OptionVisitor& v) {

@@ -41,6 +41,12 @@ class TraceFile : public testing::Test {
   SearchBox box_ = PoseLikeBox();
 };
 
+SamplerOptions Tpe() {
+  SamplerOptions options;
+  options.name = "tpe";
+  return options;
+}
+
 Energy Moody() {
   return [](std::span<const double> v) {
     if (v[0] > 10.0) throw std::runtime_error("bad \"place\" \xff");
@@ -52,7 +58,7 @@ Energy Moody() {
 TEST_F(TraceFile, ReadsBackWhatWasWrittenBitForBit) {
   MinimizeOptions options;
   options.budget = 60;
-  const Trace written = Minimize(*MakeSampler({}, {box_, {}, {}}, 1), Moody(), options);
+  const Trace written = Minimize(*MakeSampler(Tpe(), {box_, {}, {}}, 1), Moody(), options);
   WriteTrace(path_, box_, written);
   const Trace read = ReadTrace(path_, box_);
   ASSERT_EQ(read.trials.size(), written.trials.size());
@@ -70,12 +76,12 @@ TEST_F(TraceFile, SearchContinuesFromAFile) {
   MinimizeOptions options;
   options.budget = 80;
   options.batch = 4;
-  const Trace whole = Minimize(*MakeSampler({}, {box_, {}, {}}, 1), Moody(), options);
+  const Trace whole = Minimize(*MakeSampler(Tpe(), {box_, {}, {}}, 1), Moody(), options);
   options.budget = 30;
-  WriteTrace(path_, box_, Minimize(*MakeSampler({}, {box_, {}, {}}, 1), Moody(), options));
+  WriteTrace(path_, box_, Minimize(*MakeSampler(Tpe(), {box_, {}, {}}, 1), Moody(), options));
   options.budget = 80;
   const Trace continued =
-      Minimize(*MakeSampler({}, {box_, {}, {}}, 1), Moody(), options, ReadTrace(path_, box_));
+      Minimize(*MakeSampler(Tpe(), {box_, {}, {}}, 1), Moody(), options, ReadTrace(path_, box_));
   ASSERT_EQ(continued.trials.size(), whole.trials.size());
   for (std::size_t i = 0; i < whole.trials.size(); ++i) {
     EXPECT_EQ(continued.trials[i].values, whole.trials[i].values);
@@ -113,7 +119,7 @@ TEST(SearchBox, BadBoxesAreErrors) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const auto message = [](std::vector<Parameter> parameters) {
     try {
-      MakeSampler({}, {{std::move(parameters)}, {}, {}}, 1);
+      MakeSampler(Tpe(), {{std::move(parameters)}, {}, {}}, 1);
     } catch (const InputError& error) {
       return std::string(error.what());
     }
@@ -132,8 +138,8 @@ TEST(SearchBox, BadBoxesAreErrors) {
 }
 
 TEST(SearchBox, StartOutsideIsAnError) {
-  EXPECT_THROW(MakeSampler({}, {PoseLikeBox(), {}, {99.0, 0.0, 1.7, 0.0, 0.0}}, 1), InputError);
-  EXPECT_THROW(MakeSampler({}, {PoseLikeBox(), {}, {0.0}}, 1), InputError);
+  EXPECT_THROW(MakeSampler(Tpe(), {PoseLikeBox(), {}, {99.0, 0.0, 1.7, 0.0, 0.0}}, 1), InputError);
+  EXPECT_THROW(MakeSampler(Tpe(), {PoseLikeBox(), {}, {0.0}}, 1), InputError);
 }
 
 TEST(SearchBox, DifferenceTakesTheShortWay) {
@@ -146,11 +152,11 @@ TEST(SearchBox, DifferenceTakesTheShortWay) {
 TEST(Minimize, BadBudgetsAreErrors) {
   MinimizeOptions options;
   options.budget = 0;
-  EXPECT_THROW(Minimize(*MakeSampler({}, {PoseLikeBox(), {}, {}}, 1), PoseLikeEnergy, options),
+  EXPECT_THROW(Minimize(*MakeSampler(Tpe(), {PoseLikeBox(), {}, {}}, 1), PoseLikeEnergy, options),
                InputError);
   options.budget = 10;
   options.batch = -1;
-  EXPECT_THROW(Minimize(*MakeSampler({}, {PoseLikeBox(), {}, {}}, 1), PoseLikeEnergy, options),
+  EXPECT_THROW(Minimize(*MakeSampler(Tpe(), {PoseLikeBox(), {}, {}}, 1), PoseLikeEnergy, options),
                InputError);
 }
 
@@ -161,7 +167,7 @@ TEST(Minimize, ReportsTrialsInOrder) {
   options.threads = 4;
   std::int64_t next = 0;
   options.on_trial = [&](const Trial& trial) { EXPECT_EQ(trial.index, next++); };
-  Minimize(*MakeSampler({}, {PoseLikeBox(), {}, {}}, 1), PoseLikeEnergy, options);
+  Minimize(*MakeSampler(Tpe(), {PoseLikeBox(), {}, {}}, 1), PoseLikeEnergy, options);
   EXPECT_EQ(next, 33);
 }
 
