@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/commands.h"
 
+#include "cli/bench.h"
+#include "cli/completion.h"
+#include "cli/doctor.h"
+#include "cli/index.h"
 #include "cli/info.h"
+#include "cli/localize.h"
 #include "cli/render.h"
+#include "cli/skyline.h"
 #include "cli/synth.h"
 #include "cli/version.h"
 
@@ -13,9 +19,15 @@ using AddFunction = void (*)(CLI::App&, Context&);
 
 // One line per command, in the order of --help.
 constexpr AddFunction kCommands[] = {
+    AddLocalizeCommand,
+    AddBenchCommand,
+    AddIndexCommand,
     AddInfoCommand,
     AddRenderCommand,
+    AddSkylineCommand,
     AddSynthCommand,
+    AddDoctorCommand,
+    AddCompletionCommand,
     AddVersionCommand,
 };
 

@@ -15,6 +15,8 @@ namespace {
 constexpr double kChiSquare95 = 5.991464547107979;
 constexpr double kNormal95 = 1.959963984540054;
 
+}  // namespace
+
 PoseSpaceOptions RangesOf(const PoseSpaceOptions& options, const Perturbation& perturb) {
   PoseSpaceOptions ranges = options;
   ranges.east_m = perturb.east_m;
@@ -25,8 +27,6 @@ PoseSpaceOptions RangesOf(const PoseSpaceOptions& options, const Perturbation& p
   ranges.roll_deg = perturb.roll_deg;
   return ranges;
 }
-
-}  // namespace
 
 cv::Mat ReadPicture(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path)) {

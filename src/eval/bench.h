@@ -41,6 +41,9 @@ std::vector<BenchRun> RunBench(const Dataset& dataset,
                                const BenchOptions& options,
                                const BenchProgress& progress);
 
+// Half-ranges of the search for made priors: those of the perturbation.
+PoseSpaceOptions RangesOf(const PoseSpaceOptions& options, const Perturbation& perturb);
+
 // The picture of a query as ridgeline reads all pictures: EXIF orientation does not turn it. Throws
 // InputError if it does not decode.
 cv::Mat ReadPicture(const std::filesystem::path& path);

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/localize.h"
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "city/crs.h"
+#include "cli/command.h"
+#include "cli/version.h"
+#include "eval/bench.h"
+#include "eval/pose_json.h"
+#include "eval/world.h"
+#include "report/bench_report.h"
+#include "report/html_report.h"
+#include "report/map_files.h"
+
+namespace ridgeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct LocalizeArguments {
+  std::string image;
+  std::string dataset;
+  std::string query;
+  std::vector<std::string> model;
+  std::string dtm;
+  std::string crs;
+  std::string camera;
+  std::string prior;
+  std::string lines;
+  std::string out;
+  std::string report;
+  std::uint64_t seed = 1;
+  ConfigArguments config;
+};
+
+// What is to be localized, and in which model.
+struct Task {
+  Query query;
+  Dataset dataset;  // model, DTM and CRS
+};
+
+Task TaskOfDataset(const LocalizeArguments& arguments) {
+  Task task;
+  task.dataset = ReadDataset(arguments.dataset);
+  std::vector<std::string> ids;
+  for (const Query& query : task.dataset.queries) {
+    ids.push_back(query.id);
+    if (query.id == arguments.query) task.query = query;
+  }
+  if (task.query.id.empty()) {
+    throw InputError("--query", "", "\"" + arguments.query + "\"",
+                     "an id of " + arguments.dataset + ", e.g. " +
+                         NearestName(arguments.query, ids));
+  }
+  task.dataset.queries = {task.query};
+  return task;
+}
+
+Task TaskOfFiles(const LocalizeArguments& arguments) {
+  const auto require = [](const std::string& value, const char* option, const char* what) {
+    if (value.empty()) throw InputError(option, "", "nothing", what);
+  };
+  require(arguments.image, "IMAGE", "a picture, or --dataset with --query");
+  require(arguments.model.empty() ? "" : arguments.model.front(), "--model", "a city model");
+  require(arguments.camera, "--camera", "a camera file: {\"model\", \"width\", \"height\", \"params\"}");
+  require(arguments.prior, "--prior", "a prior file: {\"position\": [east, north], ...}");
+  Task task;
+  task.query.id = fs::path(arguments.image).stem().string();
+  task.query.image = arguments.image;
+  task.query.camera = ReadCamera(arguments.camera);
+  task.query.prior = ReadPrior(arguments.prior);
+  if (!arguments.lines.empty()) task.query.lines = arguments.lines;
+  task.dataset.file = arguments.prior;
+  task.dataset.name = task.query.id;
+  task.dataset.crs = arguments.crs;
+  task.dataset.model.assign(arguments.model.begin(), arguments.model.end());
+  if (!arguments.dtm.empty()) task.dataset.dtm = arguments.dtm;
+  task.dataset.queries = {task.query};
+  return task;
+}
+
+void PrintResult(const BenchRun& run, const Task& task, const Context& context) {
+  const Localization& found = run.localization;
+  char line[200];
+  if (!found.pose) {
+    context.Print(task.query.id + ": abstained: " + found.reason);
+    return;
+  }
+  const Eigen::Vector3d& c = found.pose->center_in_world;
+  const ViewAngles view = ViewAnglesOf(found.pose->cam_from_world);
+  std::snprintf(line, sizeof(line), "position    %.2f %.2f %.2f (east north height)", c.x(), c.y(),
+                c.z());
+  context.Print(line);
+  std::snprintf(line, sizeof(line), "direction   heading %.2f, pitch %.2f, roll %.2f deg",
+                view.heading_deg, view.pitch_deg, view.roll_deg);
+  context.Print(line);
+  std::snprintf(line, sizeof(line), "confidence  %.2f (energy %.4f)", found.confidence, found.energy);
+  context.Print(line);
+  if (run.record.error) {
+    std::snprintf(line, sizeof(line), "error       %.2f m, %.2f deg against the truth",
+                  run.record.error->translation_m, run.record.error->rotation_deg);
+    context.Print(line);
+  }
+  std::snprintf(line, sizeof(line), "time        %.2f s, %llu poses", run.record.seconds,
+                static_cast<unsigned long long>(found.evaluations));
+  context.Print(line);
+}
+
+int RunLocalize(const LocalizeArguments& arguments, const Context& context) {
+  const Task task = arguments.dataset.empty() ? TaskOfFiles(arguments) : TaskOfDataset(arguments);
+  LocalizerOptions options;
+  const VisitOptions visit = [&](OptionVisitor& v) { options.Visit(v); };
+  ApplyConfig(arguments.config, visit);
+  options.Validate();
+  if (!arguments.out.empty()) {
+    std::error_code error;
+    fs::create_directories(arguments.out, error);
+    if (error) throw InputError("--out", "", arguments.out + ": " + error.message(), "a folder");
+    TemporaryBeside(fs::path(arguments.out) / "pose.json");  // fails before the work, not after
+  }
+  const PoseSpaceOptions& ranges = options.search.space;
+  const World world = ReadWorld(task.dataset, std::max(ranges.east_m, ranges.north_m));
+  for (const std::string& warning : world.warnings) context.Warn(warning);
+  const Localizer localizer(world.model, world.dtm, options);
+
+  BenchOptions bench;
+  bench.seeds = {static_cast<int>(arguments.seed)};
+  bench.threads = context.threads;
+  const std::vector<BenchRun> runs = RunBench(task.dataset, localizer, bench, {});
+  const BenchRun& run = runs.front();
+  const std::string pose_json =
+      PoseJson(task.query.image.string(), run.localization, world.model);
+  const std::string options_json = OptionsToJson(visit);
+
+  const ReportOrigin origin{"Pose of " + task.query.image.filename().string(), "ridgeline localize",
+                            VersionText(), CrsName(world.model.crs), options_json};
+  if (!arguments.out.empty()) {
+    const fs::path out = arguments.out;
+    WriteFileAtomically(out / "pose.json", pose_json);
+    WriteFileAtomically(
+        out / "report.json",
+        RunJson(run.localization, arguments.seed, VersionText(), options_json));
+    const cv::Mat photo =
+        UndistortImage(BgrOf(ReadPicture(task.query.image)), *task.query.camera);
+    WriteOverlay(photo, ResultOverlay(localizer, task.query.camera->Pinhole(), run), {},
+                 out / "overlay.png");
+    const ReportData data = BenchReport(origin, task.dataset.queries, localizer, ranges, runs);
+    WriteMap(data.runs, world.model.crs.horizontal_epsg, out / "map.geojson");
+    if (!data.runs.empty() && data.runs.front().map) {
+      WriteEnergyMap(*data.runs.front().map, world.model.crs.horizontal_epsg, out / "energy.tif");
+    }
+  }
+  if (!arguments.report.empty()) {
+    WriteHtmlReport(BenchReport(origin, task.dataset.queries, localizer, ranges, runs),
+                    arguments.report);
+  }
+  if (context.json) {
+    context.Print(pose_json);
+  } else {
+    PrintResult(run, task, context);
+    if (!arguments.out.empty()) {
+      context.Print("overlay     " + (fs::path(arguments.out) / "overlay.png").string());
+    }
+    if (!arguments.report.empty()) context.Print("report      " + arguments.report);
+  }
+  return run.localization.pose ? kExitOk : kExitAbstained;
+}
+
+}  // namespace
+
+void AddLocalizeCommand(CLI::App& app, Context& context) {
+  auto arguments = std::make_shared<LocalizeArguments>();
+  CLI::App* command = AddCommand(
+      app,
+      context,
+      {"localize",
+       "Finds the pose of one picture.",
+       "ridgeline localize photo.jpg --model city.gml --dtm dtm.tif --camera camera.json \\\n"
+       "    --prior prior.json --out result --report result.html\n"
+       "ridgeline localize --dataset town/dataset.json --query street_000 --out result"},
+      [arguments](Context& c) { return RunLocalize(*arguments, c); });
+  command->add_option("image", arguments->image, "Picture");
+  command->add_option("--dataset", arguments->dataset, "Take picture, model and prior from a dataset");
+  command->add_option("--query", arguments->query, "Id of the query in --dataset");
+  command->add_option("--model", arguments->model, "City model: files or folders");
+  command->add_option("--dtm", arguments->dtm, "Terrain model (any GDAL raster)");
+  command->add_option("--crs", arguments->crs, "Projected system of the prior, e.g. EPSG:25832");
+  command->add_option("--camera", arguments->camera, "Camera file (COLMAP model and parameters)");
+  command->add_option("--prior", arguments->prior,
+                      "Prior file: position, heading_deg, pitch_deg, roll_deg");
+  command->add_option("--lines", arguments->lines,
+                      "Segments of another detector, for lines.detector=file");
+  command->add_option("--out", arguments->out,
+                      "Folder for pose.json, report.json, overlay.png, map.geojson, energy.tif");
+  command->add_option("--report", arguments->report, "HTML report");
+  command->add_option("--seed", arguments->seed, "Seed of the samplers (default 1)");
+  AddConfigOptions(*command, arguments->config);
+}
+
+}  // namespace ridgeline

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "eval/pose_json.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "city/crs.h"
+
+namespace ridgeline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// To 0.1 mm and 1e-9 of an angle or quaternion: what is written is what can be meant.
+double Rounded(double value, double unit) { return std::round(value / unit) * unit; }
+double Metres(double value) { return Rounded(value, 1e-4); }
+double Fine(double value) { return Rounded(value, 1e-9); }
+
+Json JsonOf(const Eigen::Vector3d& v) { return {Metres(v.x()), Metres(v.y()), Metres(v.z())}; }
+
+Json JsonOf(const Pose& pose, const CityModel& model) {
+  const Eigen::Quaterniond& q = pose.cam_from_world;
+  const ViewAngles view = ViewAnglesOf(q);
+  const OmegaPhiKappa photo = OmegaPhiKappaOf(q);
+  const Pose relative{q, pose.center_in_world - model.origin_in_world};
+  Json json;
+  json["position"] = JsonOf(pose.center_in_world);
+  json["cam_from_world_wxyz"] = {Fine(q.w()), Fine(q.x()), Fine(q.y()), Fine(q.z())};
+  json["heading_deg"] = Fine(view.heading_deg);
+  json["pitch_deg"] = Fine(view.pitch_deg);
+  json["roll_deg"] = Fine(view.roll_deg);
+  json["omega_phi_kappa_deg"] = {Fine(photo.omega_deg), Fine(photo.phi_deg), Fine(photo.kappa_deg)};
+  json["colmap"] = {{"origin", JsonOf(model.origin_in_world)},
+                    {"translation", JsonOf(relative.ColmapTranslation())}};
+  if (model.crs.horizontal_epsg != 0) {
+    const auto place = LatitudeLongitude(model.crs, pose.center_in_world.head<2>());
+    if (place) {
+      json["wgs84"] = {{"latitude_deg", Fine(place->x())}, {"longitude_deg", Fine(place->y())}};
+    }
+  }
+  return json;
+}
+
+// Semi-axes of the 95 % ellipse and the direction of the longer one.
+Json EllipseJson(const PoseSpread& spread) {
+  constexpr double kChiSquare95 = 5.991464547107979;  // two degrees of freedom
+  constexpr double kNormal95 = 1.959963984540054;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(spread.position_covariance);
+  const Eigen::Vector2d longest = solver.eigenvectors().col(1);
+  const double direction = std::fmod(
+      WrapHeadingDeg(std::atan2(longest.x(), longest.y()) * 180.0 / M_PI), 180.0);
+  return {{"semi_major_m", Metres(std::sqrt(kChiSquare95 * solver.eigenvalues()(1)))},
+          {"semi_minor_m", Metres(std::sqrt(kChiSquare95 * solver.eigenvalues()(0)))},
+          {"major_axis_deg", Metres(direction)},
+          {"heading_plus_minus_deg", Metres(kNormal95 * spread.heading_sigma_deg)}};
+}
+
+}  // namespace
+
+std::string PoseJson(const std::string& picture,
+                     const Localization& localization,
+                     const CityModel& model) {
+  Json json;
+  json["picture"] = picture;
+  json["status"] = localization.pose ? "ok" : "abstained";
+  json["outcome"] = NameOf(localization.status);
+  if (!localization.reason.empty()) json["reason"] = localization.reason;
+  json["crs"] = CrsName(model.crs);
+  if (localization.pose) json["pose"] = JsonOf(*localization.pose, model);
+  json["energy"] = Fine(localization.energy);
+  json["confidence"] = Fine(localization.confidence);
+  if (!localization.modes.empty()) json["region_95"] = EllipseJson(localization.spread);
+  json["modes"] = Json::array();
+  for (const PoseMode& mode : localization.modes) {
+    const ViewAngles view = ViewAnglesOf(mode.pose.cam_from_world);
+    json["modes"].push_back({{"position", JsonOf(mode.pose.center_in_world)},
+                             {"heading_deg", Fine(view.heading_deg)},
+                             {"pitch_deg", Fine(view.pitch_deg)},
+                             {"roll_deg", Fine(view.roll_deg)},
+                             {"energy", Fine(mode.energy)}});
+  }
+  json["warnings"] = localization.warnings;
+  return json.dump(1) + "\n";
+}
+
+std::string RunJson(const Localization& localization,
+                    std::uint64_t seed,
+                    const std::string& version,
+                    const std::string& options_json) {
+  Json json;
+  json["version"] = version;
+  json["seed"] = seed;
+  json["evaluations"] = localization.evaluations;
+  for (const StageTime& time : localization.times) json["seconds"][time.name] = time.seconds;
+  json["options"] = Json::parse(options_json);
+  return json.dump(1) + "\n";
+}
+
+}  // namespace ridgeline
