@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Visible edges from a position against the paper's z-buffer and a plain depth buffer; the cost of a
-// model's size; orientations at a known position; threads. The Munich model is read from
+// Visible edges from a position against the paper's z-buffer and a plain depth buffer; the cost of
+// a model's size; orientations at a known position; threads. The Munich model is read from
 // ../shared/data; without it a town of like size takes its place.
 #include <benchmark/benchmark.h>
 
@@ -80,7 +80,8 @@ const World& MunichWithTerrain() {
 // Positions of a dense search: a 1 m grid of +-10 m.
 Eigen::Vector3d GridPosition(const World& world, std::size_t i) {
   return world.position + Eigen::Vector3d(static_cast<double>(i % 21) - 10.0,
-                                          static_cast<double>(i / 21 % 21) - 10.0, 0.0);
+                                          static_cast<double>(i / 21 % 21) - 10.0,
+                                          0.0);
 }
 
 void NewPositions(benchmark::State& state, const World& world) {
@@ -91,8 +92,8 @@ void NewPositions(benchmark::State& state, const World& world) {
     pieces += set.pieces.size();
     benchmark::DoNotOptimize(set.skyline_elevation.data());
   }
-  state.counters["pieces"] = benchmark::Counter(static_cast<double>(pieces) / static_cast<double>(i),
-                                                benchmark::Counter::kAvgThreads);
+  state.counters["pieces"] = benchmark::Counter(
+      static_cast<double>(pieces) / static_cast<double>(i), benchmark::Counter::kAvgThreads);
   state.counters["triangles"] = benchmark::Counter(
       static_cast<double>(world.model->triangles.size()), benchmark::Counter::kAvgThreads);
 }
@@ -157,7 +158,8 @@ void OrientationAtKnownPositionMunich(benchmark::State& state) {
   for (auto _ : state) {
     heading_deg = heading_deg > 40.0 ? 0.0 : heading_deg + 1.0;
     const Pose pose{CamFromWorld(ViewAngles{world.angles.heading_deg - 20.0 + heading_deg,
-                                            world.angles.pitch_deg, world.angles.roll_deg}),
+                                            world.angles.pitch_deg,
+                                            world.angles.roll_deg}),
                     world.position};
     ProjectPieces(*cache.Near(world.position), kCamera, pose, segments);
     benchmark::DoNotOptimize(segments.data());

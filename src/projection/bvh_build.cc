@@ -75,8 +75,14 @@ BoxTree BuildBoxTree(const std::vector<Eigen::AlignedBox3f>& boxes, int max_leaf
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const Eigen::Vector3f& lower = boxes[i].min();
     const Eigen::Vector3f& upper = boxes[i].max();
-    primitives[i] = {lower.x(), lower.y(), lower.z(), 0,
-                     upper.x(), upper.y(), upper.z(), static_cast<unsigned>(i)};
+    primitives[i] = {lower.x(),
+                     lower.y(),
+                     lower.z(),
+                     0,
+                     upper.x(),
+                     upper.y(),
+                     upper.z(),
+                     static_cast<unsigned>(i)};
     all.extend(boxes[i]);
   }
   // One build thread: the tree, and so every tie in its use, is the same in each run.

@@ -80,8 +80,7 @@ class FeatureEdgesOfSurfaces {
     return std::any_of(begin, end, [&](const auto& entry) {
       const FeatureEdge& edge = model_.feature_edges[entry.second];
       const Eigen::Vector3d along = edge.b - edge.a;
-      const double t =
-          std::clamp((point - edge.a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+      const double t = std::clamp((point - edge.a).dot(along) / along.squaredNorm(), 0.0, 1.0);
       return (edge.a + t * along - point).norm() < kSameLine;
     });
   }
@@ -134,13 +133,12 @@ void EdgeSet::AddFeatureEdges(const CityModel& model, const MeshEdges& mesh) {
     SceneEdge edge = MakeEdge(feature, static_cast<std::uint32_t>(i));
     if (feature.surface0 != kNoSurface) edge.normal0 = model.surfaces[feature.surface0].normal;
     if (edge.has_face1) edge.normal1 = model.surfaces[feature.surface1].normal;
-    edge.closed = edge.has_face1 && is_closed(feature.surface0) && is_closed(feature.surface1) &&
-                  model.surfaces[feature.surface0].building ==
-                      model.surfaces[feature.surface1].building;
+    edge.closed =
+        edge.has_face1 && is_closed(feature.surface0) && is_closed(feature.surface1) &&
+        model.surfaces[feature.surface0].building == model.surfaces[feature.surface1].building;
     const std::uint32_t a = vertices.Find(feature.a);
     const std::uint32_t b = vertices.Find(feature.b);
-    const MeshEdge* const found =
-        a == kNoSurface || b == kNoSurface ? nullptr : mesh.Find(a, b);
+    const MeshEdge* const found = a == kNoSurface || b == kNoSurface ? nullptr : mesh.Find(a, b);
     if (found != nullptr) {
       matched_[static_cast<std::size_t>(found - mesh.edges.data())] = 1;
       // The triangle's own plane, where the polygon is not quite planar.
@@ -175,7 +173,8 @@ void EdgeSet::AddWeakFolds(const CityModel& model, const MeshEdges& mesh) {
     if (normal0.isZero() || normal1.isZero()) continue;
     const double angle = std::atan2(normal0.cross(normal1).norm(), normal0.dot(normal1));
     if (angle < kLeastWeakFold || angle > kLargestWeakFold) continue;
-    const FeatureEdge fold{model.vertices[edge.v0], model.vertices[edge.v1],
+    const FeatureEdge fold{model.vertices[edge.v0],
+                           model.vertices[edge.v1],
                            model.triangles[side0.triangle].surface,
                            model.triangles[side1.triangle].surface};
     if (feature_edges.Contain(fold.surface0, 0.5 * (fold.a + fold.b))) continue;

@@ -23,9 +23,9 @@ struct SceneEdge {
   float length = 0.0f;
   std::uint32_t index = 0;  // in CityModel::feature_edges, beyond them a weak fold
   bool has_face1 = false;
-  bool weak = false;     // a fold below the model's least angle: seen as a silhouette only
-  bool closed = false;   // of a closed shell: hidden if both faces look away
-  bool known = false;    // whether `concave` could be found out
+  bool weak = false;    // a fold below the model's least angle: seen as a silhouette only
+  bool closed = false;  // of a closed shell: hidden if both faces look away
+  bool known = false;   // whether `concave` could be found out
   bool concave = false;
 };
 
@@ -43,8 +43,8 @@ class EdgeSet {
  public:
   EdgeSet(const CityModel& model, const MeshEdges& mesh);
 
-  // Calls visit(edge, a, b, distance) for edges that may be seen, with their ends relative to the eye
-  // and their distance from it [m]: within the distance and the sector, long enough at their
+  // Calls visit(edge, a, b, distance) for edges that may be seen, with their ends relative to the
+  // eye and their distance from it [m]: within the distance and the sector, long enough at their
   // distance [rad], and not looking away. Clusters whose box (centre relative to the eye, half
   // sizes) is_hidden(center, extent) says to be hidden are skipped. In the order of the hierarchy:
   // neighbours follow each other.
@@ -73,10 +73,10 @@ class EdgeSet {
 
   struct Cluster {
     Eigen::AlignedBox3f box;
-    float longest = 0.0f;       // edge in it [m]
-    std::uint32_t first = 0;    // edges of a leaf
-    std::uint32_t count = 0;    // 0: inner
-    std::uint32_t skip = 0;     // next cluster if this one is skipped
+    float longest = 0.0f;     // edge in it [m]
+    std::uint32_t first = 0;  // edges of a leaf
+    std::uint32_t count = 0;  // 0: inner
+    std::uint32_t skip = 0;   // next cluster if this one is skipped
   };
   std::uint32_t AddCluster(const BoxTree& tree,
                            std::int32_t child,
@@ -85,8 +85,8 @@ class EdgeSet {
 
   std::vector<SceneEdge> edges_;  // in the order of the clusters
   std::vector<FeatureEdge> weak_folds_;
-  std::vector<char> closed_;      // per building, while building
-  std::vector<char> matched_;     // per mesh edge, while building
+  std::vector<char> closed_;       // per building, while building
+  std::vector<char> matched_;      // per mesh edge, while building
   std::vector<Cluster> clusters_;  // depth first
 };
 

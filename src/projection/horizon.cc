@@ -70,8 +70,8 @@ class Horizon::Envelope {
                                     east > 0 || (east == 0 && north < 0) ? high.y() : low.y());
     const float end = FastAzimuth(north > 0 || (north == 0 && east < 0) ? high.x() : low.x(),
                                   east < 0 || (east == 0 && north < 0) ? high.y() : low.y());
-    const float nearest = std::hypot(std::max({low.x(), -high.x(), 0.0f}),
-                                     std::max({low.y(), -high.y(), 0.0f}));
+    const float nearest =
+        std::hypot(std::max({low.x(), -high.x(), 0.0f}), std::max({low.y(), -high.y(), 0.0f}));
     const float tangent = top / nearest;
     bool can = false;
     ForColumns(start, end, [&](int first, int count, const float*, const float*) {
@@ -90,7 +90,8 @@ class Horizon::Envelope {
     const Eigen::Vector3f normal = start.cross(end);
     const float east = -normal.x() / normal.z();
     const float north = -normal.y() / normal.z();
-    ForColumns(FastAzimuth(start.x(), start.y()), FastAzimuth(end.x(), end.y()),
+    ForColumns(FastAzimuth(start.x(), start.y()),
+               FastAzimuth(end.x(), end.y()),
                [&](int first, int count, const float* sines, const float* cosines) {
                  float* const tangents = tangents_.data() + first;
                  for (int k = 0; k < count; ++k) {
@@ -115,7 +116,9 @@ class Horizon::Envelope {
       const int count = std::min(last + shift, columns_.first + columns_.count - 1) - low + 1;
       if (count <= 0) continue;
       const int direction = ((low % turn) + turn) % turn;
-      visit(low - columns_.first, count, horizon_.sines_.data() + direction,
+      visit(low - columns_.first,
+            count,
+            horizon_.sines_.data() + direction,
             horizon_.cosines_.data() + direction);
     }
   }

@@ -20,7 +20,9 @@ namespace ridgeline {
 // nothing reaches above it, the skyline is the horizontal: the ground goes on to the horizon.
 class Horizon {
  public:
-  Horizon(const CityModel& model, const MeshEdges& mesh, const TerrainMesh& terrain,
+  Horizon(const CityModel& model,
+          const MeshEdges& mesh,
+          const TerrainMesh& terrain,
           double step_rad);
 
   struct Columns {
@@ -62,8 +64,8 @@ class Horizon {
   // Sines and cosines of the azimuths of two turns, so that an interval never wraps.
   std::vector<float> sines_;
   std::vector<float> cosines_;
-  std::vector<Edge> edges_;                  // in the order of the clusters
-  std::vector<Cluster> clusters_;            // depth first
+  std::vector<Edge> edges_;        // in the order of the clusters
+  std::vector<Cluster> clusters_;  // depth first
 };
 
 }  // namespace ridgeline

@@ -25,8 +25,8 @@ std::vector<Half> Halves(const CityModel& model) {
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t a = v[k];
       const std::uint32_t b = v[(k + 1) % 3];
-      halves.push_back({std::min(a, b), std::max(a, b),
-                        {static_cast<std::uint32_t>(i), v[(k + 2) % 3], a < b}});
+      halves.push_back(
+          {std::min(a, b), std::max(a, b), {static_cast<std::uint32_t>(i), v[(k + 2) % 3], a < b}});
     }
   }
   std::sort(halves.begin(), halves.end(), [](const Half& a, const Half& b) {
@@ -129,7 +129,8 @@ std::vector<char> ClosedBuildings(const CityModel& model, const MeshEdges& edges
   const std::vector<double> volume_root = Volumes(model, roots);
   std::vector<char> closed(roots.size());
   for (std::size_t i = 0; i < closed.size(); ++i) {
-    closed[i] = (!open[i] && volume[i] > 0.0) || (!open_root[roots[i]] && volume_root[roots[i]] > 0);
+    closed[i] =
+        (!open[i] && volume[i] > 0.0) || (!open_root[roots[i]] && volume_root[roots[i]] > 0);
   }
   return closed;
 }

@@ -10,19 +10,19 @@
 #include <numbers>
 
 #include "projection/bvh_build.h"
+#include "projection/occluder_leaf.h"
 #include "projection/simd4.h"
 
 namespace ridgeline {
 namespace {
 
+using simd::Abs;
 using simd::Dot;
 using simd::Float4;
 using simd::Max;
-using simd::Min;
 using simd::Splat;
 using simd::Vec3x4;
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // Shadows of neighbouring triangles meet within the rounding of floats.
 constexpr float kJoin = 4e-6f;
 
@@ -35,28 +35,12 @@ struct Node {
   std::array<std::int32_t, 4> children;
 };
 
-// Four occluders.
-struct Leaf {
-  Vec3x4 a, b, c, d;
-  Vec3x4 normal;  // unit; zero for a degenerate occluder and an unused place
-  Float4 tolerance;
-};
-
-// Of degenerate occluders and unused places: nothing lies so deep.
-constexpr float kNeverHides = 1e9f;
-// Height of a degenerate occluder [m].
-constexpr double kThinnest = 5e-4;
-
-Float4 Abs(Float4 v) { return Max(v, -v); }
-Vec3x4 Splat3(const Eigen::Vector3f& v) { return {Splat(v.x()), Splat(v.y()), Splat(v.z())}; }
-Vec3x4 Abs3(const Vec3x4& v) { return {Abs(v.x), Abs(v.y), Abs(v.z)}; }
-
 // A plane through the eye (or, with an offset, beside it) and the reach of boxes across it.
 struct Halfspace {
   Vec3x4 normal;
   Vec3x4 reach;
 
-  explicit Halfspace(const Eigen::Vector3f& n) : normal(Splat3(n)), reach(Abs3(normal)) {}
+  explicit Halfspace(const Eigen::Vector3f& n) : normal(Splat(n)), reach(Abs(normal)) {}
   // Largest value of normal * x over the boxes.
   Float4 Highest(const Vec3x4& center, const Vec3x4& extent) const {
     return Dot(normal, center) + Dot(reach, extent);
@@ -98,77 +82,6 @@ struct Wedge {
   }
 };
 
-// What a leaf's occluders hide of a segment, one per lane.
-struct Shadows {
-  unsigned some = 0;  // bit k: occluder k hides the part [first[k], last[k]]
-  bool all = false;   // one of them hides all
-  Float4 first{};
-  Float4 last{};
-};
-
-// Values going linearly from the first to the second end of a segment; hidden is where all are >= 0.
-struct Linear {
-  Float4 at_a, at_b;
-};
-
-Shadows CastShadows(const Leaf& leaf, const Vec3x4& eye, const Vec3x4& a, const Vec3x4& b) {
-  const Vec3x4 va = leaf.a - eye;
-  const Float4 height = Dot(leaf.normal, va);
-  const Float4 sign = height > 0.0f ? Splat(1.0f) : Splat(-1.0f);
-  std::array<Linear, 5> values;
-  // Behind the plane, as seen from the eye. Most occluders met are the segment's own faces and its
-  // neighbours: not in front of it.
-  const Float4 depth = Abs(height) + leaf.tolerance;
-  values[0] = {sign * Dot(leaf.normal, a) - depth, sign * Dot(leaf.normal, b) - depth};
-  Float4 highest = Max(values[0].at_a, values[0].at_b);
-  if (simd::Bits(highest > 0.0f) == 0) return Shadows{};
-  // Inside the planes through the eye and the sides.
-  const Vec3x4 vb = leaf.b - eye;
-  const Vec3x4 vc = leaf.c - eye;
-  const Vec3x4 vd = leaf.d - eye;
-  const std::array<Vec3x4, 4> sides{Cross(va, vb), Cross(vb, vc), Cross(vc, vd), Cross(vd, va)};
-  Float4 lowest = Min(values[0].at_a, values[0].at_b);
-  for (int k = 0; k < 4; ++k) {
-    const Linear value{sign * Dot(sides[k], a), sign * Dot(sides[k], b)};
-    lowest = Min(lowest, Min(value.at_a, value.at_b));
-    highest = Min(highest, Max(value.at_a, value.at_b));
-    values[k + 1] = value;
-  }
-  Shadows shadows;
-  shadows.all = simd::Bits(lowest >= 0.0f) != 0;
-  if (shadows.all || simd::Bits(highest >= 0.0f) == 0) return shadows;
-  shadows.first = Splat(0.0f);
-  shadows.last = Splat(1.0f);
-  for (const Linear& value : values) {
-    const Float4 zero = value.at_a / (value.at_a - value.at_b);
-    shadows.first = Max(shadows.first, value.at_a < 0.0f ? zero : Splat(0.0f));
-    shadows.last = Min(shadows.last, value.at_b < 0.0f ? zero : Splat(1.0f));
-  }
-  shadows.some = simd::Bits((highest >= 0.0f) & (shadows.first < shadows.last));
-  return shadows;
-}
-
-// Whether an occluder's shadow holds a whole box.
-bool ShadowHoldsBox(const Leaf& leaf,
-                    const Vec3x4& eye,
-                    const Vec3x4& center,
-                    const Vec3x4& extent) {
-  const Vec3x4 va = leaf.a - eye;
-  const Float4 height = Dot(leaf.normal, va);
-  const Float4 sign = height > 0.0f ? Splat(1.0f) : Splat(-1.0f);
-  const auto lowest = [&](const Vec3x4& normal) {
-    return sign * Dot(normal, center) - Dot(Abs3(normal), extent);
-  };
-  Float4 least = lowest(leaf.normal) - Abs(height) - leaf.tolerance;
-  if (simd::Bits(least > 0.0f) == 0) return false;
-  const Vec3x4 vb = leaf.b - eye;
-  const Vec3x4 vc = leaf.c - eye;
-  const Vec3x4 vd = leaf.d - eye;
-  least = Min(least, Min(lowest(Cross(va, vb)), lowest(Cross(vb, vc))));
-  least = Min(least, Min(lowest(Cross(vc, vd)), lowest(Cross(vd, va))));
-  return simd::Bits(least >= 0.0f) != 0;
-}
-
 void AddHidden(Interval added, std::vector<Interval>& hidden) {
   std::size_t begin = 0;
   while (begin < hidden.size() && hidden[begin].last < added.first - kJoin) ++begin;
@@ -191,7 +104,7 @@ void AddHidden(Interval added, std::vector<Interval>& hidden) {
 std::size_t AzimuthRange(const Eigen::Vector3f& p, std::size_t count) {
   const float sum = std::abs(p.x()) + std::abs(p.y());
   if (!(sum > 0.0f)) return 0;
-  const float quarter = p.y() / sum;                              // [-1, 1]
+  const float quarter = p.y() / sum;                                   // [-1, 1]
   const float turn = p.x() >= 0.0f ? 1.0f - quarter : 3.0f + quarter;  // [0, 4]
   return std::min(count - 1, static_cast<std::size_t>(turn * 0.25f * static_cast<float>(count)));
 }
@@ -243,53 +156,22 @@ Turn TurnToAxes(const std::vector<Occluder>& occluders) {
 struct OccluderBvh::Impl {
   Turn turn;
   std::vector<Node> nodes;
-  std::vector<Leaf> leaves;
+  std::vector<OccluderLeaf> leaves;
 };
 
 namespace {
-
-void SetLane(Vec3x4& target, int lane, const Eigen::Vector3f& value) {
-  target.x[lane] = value.x();
-  target.y[lane] = value.y();
-  target.z[lane] = value.z();
-}
-
-Leaf MakeLeaf(const BoxTree::Leaf& source, const std::vector<Occluder>& occluders) {
-  Leaf leaf{};
-  leaf.tolerance = Splat(kNeverHides);
-  for (std::size_t k = 0; k < source.primitives.size(); ++k) {
-    const Occluder& o = occluders[source.primitives[k]];
-    const int lane = static_cast<int>(k);
-    SetLane(leaf.a, lane, o.a);
-    SetLane(leaf.b, lane, o.b);
-    SetLane(leaf.c, lane, o.c);
-    SetLane(leaf.d, lane, o.d);
-    // Twice the area, of a triangle too.
-    const Eigen::Vector3d normal =
-        (o.c - o.a).cast<double>().cross((o.c == o.d ? o.c - o.b : o.d - o.b).cast<double>());
-    const double length = normal.norm();
-    const float longest =
-        std::sqrt(std::max({(o.b - o.a).squaredNorm(), (o.c - o.b).squaredNorm(),
-                            (o.d - o.c).squaredNorm(), (o.a - o.d).squaredNorm()}));
-    // Thinner than the rounding of floats some kilometres from the origin: its plane means nothing.
-    if (length <= kThinnest * longest) continue;
-    SetLane(leaf.normal, lane, (normal / length).cast<float>());
-    leaf.tolerance[lane] = o.tolerance_m;
-  }
-  return leaf;
-}
 
 Node MakeNode(const BoxTree::Node& source) {
   Node node{};
   node.children = source.children;
   for (int k = 0; k < 4; ++k) {
     if (source.children[k] == BoxTree::kNone) {
-      SetLane(node.extent, k, Eigen::Vector3f::Constant(-kNoBox));
+      simd::SetLane(node.extent, k, Eigen::Vector3f::Constant(-kNoBox));
       continue;
     }
-    SetLane(node.center, k, source.boxes[k].center());
+    simd::SetLane(node.center, k, source.boxes[k].center());
     // A millimetre against rounding; flat boxes are common.
-    SetLane(node.extent, k, (source.boxes[k].sizes() * 0.5f).array() + 1e-3f);
+    simd::SetLane(node.extent, k, (source.boxes[k].sizes() * 0.5f).array() + 1e-3f);
   }
   return node;
 }
@@ -311,14 +193,14 @@ OccluderBvh::OccluderBvh(std::vector<Occluder> occluders) : impl_(std::make_uniq
   for (const BoxTree::Node& node : tree.nodes) impl_->nodes.push_back(MakeNode(node));
   impl_->leaves.reserve(tree.leaves.size());
   for (const BoxTree::Leaf& leaf : tree.leaves) {
-    impl_->leaves.push_back(MakeLeaf(leaf, occluders));
+    impl_->leaves.emplace_back(leaf.primitives, occluders);
   }
 }
 
 OccluderBvh::~OccluderBvh() = default;
 
 std::size_t OccluderBvh::memory_bytes() const {
-  return impl_->nodes.size() * sizeof(Node) + impl_->leaves.size() * sizeof(Leaf);
+  return impl_->nodes.size() * sizeof(Node) + impl_->leaves.size() * sizeof(OccluderLeaf);
 }
 
 bool OccluderBvh::HidesBox(const Eigen::Vector3f& eye,
@@ -333,8 +215,9 @@ bool OccluderBvh::HidesBox(const Eigen::Vector3f& eye,
   const float c = std::abs(turn.cosine);
   const float s = std::abs(turn.sine);
   const Eigen::Vector3f turned(c * extent.x() + s * extent.y() + 1e-3f,
-                               s * extent.x() + c * extent.y() + 1e-3f, extent.z() + 1e-3f);
-  return ShadowHoldsBox(impl_->leaves[hint], Splat3(turn * eye), Splat3(center), Splat3(turned));
+                               s * extent.x() + c * extent.y() + 1e-3f,
+                               extent.z() + 1e-3f);
+  return ShadowHoldsBox(impl_->leaves[hint], Splat(turn * eye), Splat(center), Splat(turned));
 }
 
 bool OccluderBvh::Hide(const Eigen::Vector3f& eye,
@@ -348,9 +231,9 @@ bool OccluderBvh::Hide(const Eigen::Vector3f& eye,
   const Eigen::Vector3f normal = a.cross(b);
   if (normal.squaredNorm() == 0.0f) return false;  // seen from its end: a point
   if (impl_->nodes.empty()) return true;
-  const Vec3x4 eye4 = Splat3(impl_->turn * eye);
-  const Vec3x4 a4 = Splat3(a);
-  const Vec3x4 b4 = Splat3(b);
+  const Vec3x4 eye4 = Splat(impl_->turn * eye);
+  const Vec3x4 a4 = Splat(a);
+  const Vec3x4 b4 = Splat(b);
   std::uint32_t& hint = hints[AzimuthRange(a + b, hints.size())];
   std::uint32_t& hint_a = hints[AzimuthRange(a, hints.size())];
   std::uint32_t& hint_b = hints[AzimuthRange(b, hints.size())];

@@ -36,9 +36,9 @@ class OccluderBvh {
   explicit OccluderBvh(std::vector<Occluder> occluders);
   ~OccluderBvh();
 
-  // Adds the hidden parts of the segment a-b (relative to the eye) to `hidden`, which stays disjoint
-  // and in order; parts that meet within float rounding are joined. Stops early and returns false
-  // once no gap of at least `min_part` of the segment's length is left.
+  // Adds the hidden parts of the segment a-b (relative to the eye) to `hidden`, which stays
+  // disjoint and in order; parts that meet within float rounding are joined. Stops early and
+  // returns false once no gap of at least `min_part` of the segment's length is left.
   bool Hide(const Eigen::Vector3f& eye,
             const Eigen::Vector3f& a_from_eye,
             const Eigen::Vector3f& b_from_eye,

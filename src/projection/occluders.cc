@@ -36,8 +36,8 @@ std::optional<Quadrangle> QuadrangleAt(const CityModel& model,
   if (edge.count != 2) return std::nullopt;
   const MeshSide& side0 = mesh.sides[edge.first];
   const MeshSide& side1 = mesh.sides[edge.first + 1];
-  if (side0.forward == side1.forward || model.triangles[side0.triangle].surface !=
-                                            model.triangles[side1.triangle].surface) {
+  if (side0.forward == side1.forward ||
+      model.triangles[side0.triangle].surface != model.triangles[side1.triangle].surface) {
     return std::nullopt;
   }
   const Quadrangle corners = side0.forward
@@ -61,9 +61,8 @@ std::vector<Occluder> ModelOccluders(const CityModel& model,
   for (const MeshEdge& edge : mesh.edges) {
     edges.emplace_back((model.vertices[edge.v0] - model.vertices[edge.v1]).squaredNorm(), &edge);
   }
-  std::stable_sort(edges.begin(), edges.end(), [](const auto& p, const auto& q) {
-    return p.first > q.first;
-  });
+  std::stable_sort(
+      edges.begin(), edges.end(), [](const auto& p, const auto& q) { return p.first > q.first; });
   std::vector<Occluder> occluders;
   std::vector<char> is_used(model.triangles.size(), 0);
   for (const auto& [length, edge] : edges) {

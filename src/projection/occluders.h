@@ -10,8 +10,8 @@
 
 namespace ridgeline {
 
-// The model's triangles; pairs of one plane that make a convex quadrangle are one, so that a wall is
-// one occluder.
+// The model's triangles; pairs of one plane that make a convex quadrangle are one, so that a wall
+// is one occluder.
 std::vector<Occluder> ModelOccluders(const CityModel& model,
                                      const MeshEdges& mesh,
                                      double tolerance_m);

@@ -46,9 +46,12 @@ void ProjectPieces(const VisibleSet& visible,
     }
     const Eigen::Vector3f start = a + first * (b - a);
     const Eigen::Vector3f end = a + last * (b - a);
-    segments.push_back({start.head<2>() / start.z(), end.head<2>() / end.z(),
-                        static_cast<std::uint32_t>(i), 0.5f * (start.z() + end.z()),
-                        1.0f / start.z(), 1.0f / end.z()});
+    segments.push_back({start.head<2>() / start.z(),
+                        end.head<2>() / end.z(),
+                        static_cast<std::uint32_t>(i),
+                        0.5f * (start.z() + end.z()),
+                        1.0f / start.z(),
+                        1.0f / end.z()});
   }
 }
 

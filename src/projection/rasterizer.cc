@@ -62,24 +62,24 @@ void RasterizePolygon(const Polygon& polygon, cv::Mat& depth) {
     bottom = std::max(bottom, points[k].y());
   }
   // The plane n * p = offset in homogeneous image points gives 1 / z = n * (x, y, 1) / offset.
-  const Eigen::Vector3d normal = (polygon.corners[1] - polygon.corners[0])
-                                     .cross(polygon.corners[2] - polygon.corners[0]);
+  const Eigen::Vector3d normal =
+      (polygon.corners[1] - polygon.corners[0]).cross(polygon.corners[2] - polygon.corners[0]);
   const double offset = normal.dot(polygon.corners[0]);
   if (offset == 0.0 || !std::isfinite(offset)) return;  // edge-on or degenerate
   const Eigen::Vector3d inverse_depth = normal / offset;
   const int first_row = std::max(0, static_cast<int>(std::ceil(std::max(top, 0.0) - 0.5)));
-  const int last_row = static_cast<int>(
-      std::floor(std::min(bottom, static_cast<double>(depth.rows)) - 0.5));
+  const int last_row =
+      static_cast<int>(std::floor(std::min(bottom, static_cast<double>(depth.rows)) - 0.5));
   for (int row = first_row; row <= last_row; ++row) {
     const Span span = SpanAt(points, polygon.count, row + 0.5);
     if (span.first > span.last) continue;
     const int first = static_cast<int>(std::ceil(std::max(span.first, 0.0) - 0.5));
-    const int last = static_cast<int>(
-        std::floor(std::min(span.last, static_cast<double>(depth.cols)) - 0.5));
+    const int last =
+        static_cast<int>(std::floor(std::min(span.last, static_cast<double>(depth.cols)) - 0.5));
     float* const line = depth.ptr<float>(row);
     for (int column = std::max(first, 0); column <= last; ++column) {
-      const double inverse = inverse_depth.x() * (column + 0.5) +
-                             inverse_depth.y() * (row + 0.5) + inverse_depth.z();
+      const double inverse =
+          inverse_depth.x() * (column + 0.5) + inverse_depth.y() * (row + 0.5) + inverse_depth.z();
       if (inverse > 0.0) line[column] = std::min(line[column], static_cast<float>(1.0 / inverse));
     }
   }
@@ -91,8 +91,8 @@ cv::Mat RasterizeDepth(const CityModel& model,
                        const PinholeCamera& camera,
                        const Pose& cam_from_local,
                        double radius_m) {
-  cv::Mat depth(camera.height, camera.width, CV_32F,
-                cv::Scalar(std::numeric_limits<float>::infinity()));
+  cv::Mat depth(
+      camera.height, camera.width, CV_32F, cv::Scalar(std::numeric_limits<float>::infinity()));
   Eigen::Matrix3d calibration;
   calibration << camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0;
   const Eigen::Matrix3d image_from_local =

@@ -31,15 +31,18 @@ void AttachMesh(RTCDevice device,
                 const auto& triangle) {
   if (triangle_count == 0) return;
   const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* const vertices = static_cast<float*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                              3 * sizeof(float), vertex_count));
+  auto* const vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertex_count));
   for (std::size_t i = 0; i < vertex_count; ++i) {
     Eigen::Map<Eigen::Vector3f>(vertices + 3 * i) = vertex(i);
   }
-  auto* const indices = static_cast<std::uint32_t*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                              3 * sizeof(std::uint32_t), triangle_count));
+  auto* const indices =
+      static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(geometry,
+                                                          RTC_BUFFER_TYPE_INDEX,
+                                                          0,
+                                                          RTC_FORMAT_UINT3,
+                                                          3 * sizeof(std::uint32_t),
+                                                          triangle_count));
   for (std::size_t i = 0; i < triangle_count; ++i) {
     for (int k = 0; k < 3; ++k) indices[3 * i + k] = triangle(i)[k];
   }
@@ -97,12 +100,20 @@ RayScene::RayScene(const CityModel& model, const TerrainMesh& terrain)
   impl_->scene = rtcNewScene(impl_->device);
   rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
   AttachMesh(
-      impl_->device, impl_->scene, kModelGeometry, model.vertices.size(), model.triangles.size(),
+      impl_->device,
+      impl_->scene,
+      kModelGeometry,
+      model.vertices.size(),
+      model.triangles.size(),
       [&](std::size_t i) -> Eigen::Vector3f { return model.vertices[i].cast<float>(); },
       [&](std::size_t i) { return model.triangles[i].vertices; });
   AttachMesh(
-      impl_->device, impl_->scene, kTerrainGeometry, terrain.vertices.size(),
-      terrain.triangles.size(), [&](std::size_t i) { return terrain.vertices[i]; },
+      impl_->device,
+      impl_->scene,
+      kTerrainGeometry,
+      terrain.vertices.size(),
+      terrain.triangles.size(),
+      [&](std::size_t i) { return terrain.vertices[i]; },
       [&](std::size_t i) { return terrain.triangles[i]; });
   rtcCommitScene(impl_->scene);
   impl_->surface_of_triangle.reserve(model.triangles.size());

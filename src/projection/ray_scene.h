@@ -16,8 +16,8 @@
 namespace ridgeline {
 
 struct RayHit {
-  float distance = 0.0f;                // in lengths of the ray's direction
-  std::uint32_t surface = kNoSurface;   // index into CityModel::surfaces, or kTerrainSurface
+  float distance = 0.0f;               // in lengths of the ray's direction
+  std::uint32_t surface = kNoSurface;  // index into CityModel::surfaces, or kTerrainSurface
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  // of the triangle hit, unit
 };
 
@@ -33,8 +33,8 @@ class RayScene {
                              const Eigen::Vector3f& direction,
                              float nearest = 0.0f) const;
 
-  // The surfaces first hit by rays from one point, many at a time: about ten times as fast as one by
-  // one if neighbours in the list are neighbours in space. kNoSurface: none.
+  // The surfaces first hit by rays from one point, many at a time: about ten times as fast as one
+  // by one if neighbours in the list are neighbours in space. kNoSurface: none.
   void CastMany(const Eigen::Vector3f& from,
                 std::span<const Eigen::Vector3f> directions,
                 std::span<std::uint32_t> surfaces) const;

@@ -46,15 +46,19 @@ Workspace& ThreadWorkspace() {
 void ProjectionOptions::Validate() const {
   Require(max_distance_m > 0.0, "max_distance_m", max_distance_m, "> 0");
   Require(min_piece_mrad >= 0.0, "min_piece_mrad", min_piece_mrad, ">= 0");
-  Require(skyline_step_mrad >= 0.01 && skyline_step_mrad <= 1000.0, "skyline_step_mrad",
-          skyline_step_mrad, "[0.01, 1000]");
+  Require(skyline_step_mrad >= 0.01 && skyline_step_mrad <= 1000.0,
+          "skyline_step_mrad",
+          skyline_step_mrad,
+          "[0.01, 1000]");
   Require(surface_tolerance_m >= 0.0, "surface_tolerance_m", surface_tolerance_m, ">= 0");
   Require(terrain_tolerance_m >= 0.0, "terrain_tolerance_m", terrain_tolerance_m, ">= 0");
   Require(terrain_error_m >= 0.0, "terrain_error_m", terrain_error_m, ">= 0");
 }
 
 struct Scene::Impl {
-  Impl(const CityModel& city, const TerrainMesh& terrain, const MeshEdges& mesh,
+  Impl(const CityModel& city,
+       const TerrainMesh& terrain,
+       const MeshEdges& mesh,
        const ProjectionOptions& projection)
       : model(city),
         options(projection),
@@ -121,14 +125,18 @@ VisibleSet Scene::VisibleFrom(const Eigen::Vector3d& position, const Sector& sec
       const bool is_gap = part.first > first;
       first = part.last;
       if (!is_gap || AngleBetween(start, end) < min_angle) continue;
-      const auto [left, right] =
-          impl.beside.Find(eye, edge, impl.Feature(edge.index), start, end);
+      const auto [left, right] = impl.beside.Find(eye, edge, impl.Feature(edge.index), start, end);
       visible.pieces.push_back({eye + start, eye + end, edge.index, left, right});
     }
   };
-  impl.edges.ForCandidates(eye, sector_test, static_cast<float>(impl.options.max_distance_m),
-                           min_angle, is_hidden, add_visible_parts);
-  std::stable_sort(visible.pieces.begin(), visible.pieces.end(),
+  impl.edges.ForCandidates(eye,
+                           sector_test,
+                           static_cast<float>(impl.options.max_distance_m),
+                           min_angle,
+                           is_hidden,
+                           add_visible_parts);
+  std::stable_sort(visible.pieces.begin(),
+                   visible.pieces.end(),
                    [](const VisiblePiece& p, const VisiblePiece& q) { return p.edge < q.edge; });
   return visible;
 }
@@ -161,8 +169,8 @@ std::optional<double> Scene::Raycast(const Eigen::Vector3d& from,
   return hit->distance;
 }
 
-std::vector<std::uint32_t> Scene::SurfacesAlong(
-    const Eigen::Vector3d& from, std::span<const Eigen::Vector3f> directions) const {
+std::vector<std::uint32_t> Scene::SurfacesAlong(const Eigen::Vector3d& from,
+                                                std::span<const Eigen::Vector3f> directions) const {
   std::vector<std::uint32_t> surfaces(directions.size());
   impl_->rays.CastMany(from.cast<float>(), directions, surfaces);
   return surfaces;

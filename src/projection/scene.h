@@ -87,9 +87,10 @@ class Scene {
   Scene(Scene&&) noexcept;
 
   // Visible pieces of feature edges and silhouettes from `position` (local) within the sector,
-  // exact: the shadows of all faces are cut out of each edge. Inside a closed building or below
-  // the terrain there are none. A ray that hits nothing sees the ground below the horizontal
-  // (VisiblePiece::left, right), else the sky.
+  // exact: the shadows of all faces are cut out of each edge. Edges below a millimetre are not
+  // looked at, and edges of a closed shell are seen from outside only: inside a closed building or
+  // below the terrain there are no pieces. A ray that hits nothing sees the ground below the
+  // horizontal (VisiblePiece::left, right), else the sky.
   VisibleSet VisibleFrom(const Eigen::Vector3d& position, const Sector& sector) const;
   // The skyline alone (no pieces), at a fraction of the cost.
   VisibleSet SkylineFrom(const Eigen::Vector3d& position, const Sector& sector) const;
@@ -100,7 +101,8 @@ class Scene {
                      bool with_normals = false) const;
 
   // Distance [m] to the first hit of a ray, nullopt: sky.
-  std::optional<double> Raycast(const Eigen::Vector3d& from, const Eigen::Vector3d& direction) const;
+  std::optional<double> Raycast(const Eigen::Vector3d& from,
+                                const Eigen::Vector3d& direction) const;
 
   // The surfaces hit first by rays from one point: kTerrainSurface for the terrain, kNoSurface for
   // the sky. In packets: fast if directions next to each other in the list are so in space.
@@ -124,14 +126,14 @@ class Scene {
 struct ProjectedSegment {
   Eigen::Vector2f a = Eigen::Vector2f::Zero();
   Eigen::Vector2f b = Eigen::Vector2f::Zero();
-  std::uint32_t piece = 0;  // index into VisibleSet::pieces
-  float depth = 0.0f;       // of the middle, along the optical axis [m]
+  std::uint32_t piece = 0;       // index into VisibleSet::pieces
+  float depth = 0.0f;            // of the middle, along the optical axis [m]
   float inverse_depth_a = 0.0f;  // of the ends [1 / m]; linear along the segment in the image
   float inverse_depth_b = 0.0f;
 };
 
-// Projects the pieces into the image, clipped to the near plane (0.1 m) and to the image. Appends to
-// `segments` after clearing it, so that the caller's memory is used again.
+// Projects the pieces into the image, clipped to the near plane (0.1 m) and to the image. Appends
+// to `segments` after clearing it, so that the caller's memory is used again.
 void ProjectPieces(const VisibleSet& visible,
                    const PinholeCamera& camera,
                    const Pose& cam_from_local,

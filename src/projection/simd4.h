@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 
 #ifdef __SSE2__
@@ -39,6 +40,17 @@ inline Vec3x4 Cross(const Vec3x4& a, const Vec3x4& b) {
 
 inline Vec3x4 operator-(const Vec3x4& a, const Vec3x4& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+inline Float4 Abs(Float4 v) { return Max(v, -v); }
+inline Vec3x4 Abs(const Vec3x4& v) { return {Abs(v.x), Abs(v.y), Abs(v.z)}; }
+
+inline Vec3x4 Splat(const Eigen::Vector3f& v) { return {Splat(v.x()), Splat(v.y()), Splat(v.z())}; }
+
+inline void SetLane(Vec3x4& target, int lane, const Eigen::Vector3f& value) {
+  target.x[lane] = value.x();
+  target.y[lane] = value.y();
+  target.z[lane] = value.z();
 }
 
 }  // namespace ridgeline::simd

@@ -31,7 +31,8 @@ SurfacePanorama SurfacesFrom(const Scene& scene,
   panorama.columns = static_cast<int>(std::ceil(2.0 * half_width / range.step)) + 1;
   panorama.rows = std::max(
       1,
-      static_cast<int>(std::ceil((range.highest_elevation - range.lowest_elevation) / range.step)) + 1);
+      static_cast<int>(std::ceil((range.highest_elevation - range.lowest_elevation) / range.step)) +
+          1);
   std::vector<Eigen::Vector2f> horizontal;  // per column
   horizontal.reserve(static_cast<std::size_t>(panorama.columns));
   for (int column = 0; column < panorama.columns; ++column) {

@@ -10,8 +10,8 @@
 
 namespace ridgeline {
 
-// The surface seen in every direction of a sector from one position, on a grid of azimuth (clockwise
-// from north) and elevation. Orientation-free, like VisibleSet.
+// The surface seen in every direction of a sector from one position, on a grid of azimuth
+// (clockwise from north) and elevation. Orientation-free, like VisibleSet.
 struct SurfacePanorama {
   double first_azimuth = 0.0;    // of column 0 [rad]
   double first_elevation = 0.0;  // of row 0 [rad]

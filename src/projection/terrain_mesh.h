@@ -17,9 +17,9 @@ struct TerrainMesh {
 
 // Right-triangulated irregular network over the grid: few triangles where the ground is flat. The
 // height at the middle of each triangle's long side that was not split further is within
-// `max_error_m`. Cells beside unknown heights are left out. Throws InputError for a grid whose sizes
-// and number of heights disagree.
-// Source: Evans, Kirkpatrick & Townsend, "Right-triangulated irregular networks", 2001.
+// `max_error_m`. Cells beside unknown heights are left out. Throws InputError for a grid whose
+// sizes and number of heights disagree. Source: Evans, Kirkpatrick & Townsend, "Right-triangulated
+// irregular networks", 2001.
 TerrainMesh MeshTerrain(const HeightGrid& grid, double max_error_m);
 
 }  // namespace ridgeline

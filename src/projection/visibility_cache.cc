@@ -97,8 +97,8 @@ struct VisibilityCache::Impl {
     return {std::llround(index.x()), std::llround(index.y()), std::llround(index.z())};
   }
   Eigen::Vector3d CenterOf(const Cell& cell) const {
-    const Eigen::Vector3d index(static_cast<double>(cell[0]), static_cast<double>(cell[1]),
-                                static_cast<double>(cell[2]));
+    const Eigen::Vector3d index(
+        static_cast<double>(cell[0]), static_cast<double>(cell[1]), static_cast<double>(cell[2]));
     return origin + index.cwiseProduct(cell_size);
   }
 };
@@ -109,7 +109,9 @@ VisibilityCache::VisibilityCache(const Scene& scene,
                                  const VisibilityCacheOptions& options) {
   options.Validate();
   impl_.reset(new Impl{
-      scene, origin, sector,
+      scene,
+      origin,
+      sector,
       Eigen::Vector3d(options.cell_m, options.cell_m, options.height_cell_m),
       static_cast<std::size_t>(options.max_megabytes * 1e6 / static_cast<double>(kShards))});
 }

@@ -33,8 +33,8 @@ struct VisibilityCacheOptions {
 // gives. Thread-safe; two threads that miss the same cell at once both compute it.
 class VisibilityCache {
  public:
-  // `origin` (local) is the centre of one cell, e.g. the prior; the sector is that of every set. The
-  // scene must outlive the cache.
+  // `origin` (local) is the centre of one cell, e.g. the prior; the sector is that of every set.
+  // The scene must outlive the cache.
   VisibilityCache(const Scene& scene,
                   const Eigen::Vector3d& origin,
                   const Sector& sector,

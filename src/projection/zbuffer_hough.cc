@@ -62,17 +62,22 @@ std::vector<ProjectedSegment> ZbufferHoughSegments(const CityModel& model,
   cv::Mat edges;
   cv::Canny(GrayFromDepth(depth, options.white_m), edges, options.canny_low, options.canny_high);
   std::vector<cv::Vec4i> lines;
-  cv::HoughLinesP(edges, lines, options.rho_px, options.theta_deg * std::numbers::pi / 180.0,
-                  options.votes, options.min_length_px, options.max_gap_px);
+  cv::HoughLinesP(edges,
+                  lines,
+                  options.rho_px,
+                  options.theta_deg * std::numbers::pi / 180.0,
+                  options.votes,
+                  options.min_length_px,
+                  options.max_gap_px);
   std::vector<ProjectedSegment> segments;
   segments.reserve(lines.size());
   for (const cv::Vec4i& line : lines) {
     // OpenCV's pixel (0, 0) has its centre at (0.5, 0.5).
     ProjectedSegment segment;
-    segment.a = Eigen::Vector2f(static_cast<float>(line[0]), static_cast<float>(line[1])).array() +
-                0.5f;
-    segment.b = Eigen::Vector2f(static_cast<float>(line[2]), static_cast<float>(line[3])).array() +
-                0.5f;
+    segment.a =
+        Eigen::Vector2f(static_cast<float>(line[0]), static_cast<float>(line[1])).array() + 0.5f;
+    segment.b =
+        Eigen::Vector2f(static_cast<float>(line[2]), static_cast<float>(line[3])).array() + 0.5f;
     segment.piece = kNoPiece;
     const Eigen::Vector2f middle = 0.5f * (segment.a + segment.b);
     segment.depth = NearestDepthAround(depth, {middle.x(), middle.y()});

@@ -46,11 +46,11 @@ struct ZbufferHoughOptions {
   void Validate() const;
 };
 
-// Model lines as the paper finds them: the buildings' surfaces rasterized into a z-buffer, its edges
-// by Canny, and segments in them by the probabilistic Hough transform. Segments [px] in the order of
-// the transform, with the depth at their middle; no model edges (kNoPiece). Folds between faces that
-// change the depth little are not found, as in the paper.
-// Source: Loeper et al., 3.1.1. Cost: about that of Canny and Hough on the image size.
+// Model lines as the paper finds them: the buildings' surfaces rasterized into a z-buffer, its
+// edges by Canny, and segments in them by the probabilistic Hough transform. Segments [px] in the
+// order of the transform, with the depth at their middle; no model edges (kNoPiece). Folds between
+// faces that change the depth little are not found, as in the paper. Source: Loeper et al., 3.1.1.
+// Cost: about that of Canny and Hough on the image size.
 std::vector<ProjectedSegment> ZbufferHoughSegments(const CityModel& model,
                                                    const PinholeCamera& camera,
                                                    const Pose& cam_from_local,

@@ -146,7 +146,8 @@ TEST(VisibleFrom, FoldsOfACurvedFacadeAreSeenAsSilhouettes) {
   };
   std::vector<Eigen::Vector3d> roof, ground;
   for (int k = 0; k < kSides; ++k) {
-    builder.AddSurface(tower, SurfaceClass::kWall,
+    builder.AddSurface(tower,
+                       SurfaceClass::kWall,
                        {corner(k, 0), corner(k + 1, 0), corner(k + 1, 20), corner(k, 20)});
     roof.push_back(corner(k, 20));
     ground.insert(ground.begin(), corner(k, 0));

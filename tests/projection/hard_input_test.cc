@@ -68,7 +68,9 @@ TEST(HardInput, DegenerateTrianglesHideNothing) {
   CityModel dirty = clean;
   Random random(1, HashText("degenerate"));
   for (int k = 0; k < 300; ++k) {
-    const auto any = [&] { return static_cast<std::uint32_t>(random.Below(clean.vertices.size())); };
+    const auto any = [&] {
+      return static_cast<std::uint32_t>(random.Below(clean.vertices.size()));
+    };
     const std::uint32_t a = any();
     const std::uint32_t b = any();
     // Two equal corners, three equal corners, three on a line.
@@ -159,7 +161,8 @@ TEST(HardInput, InsideAClosedBuildingNothingIsVisible) {
 
 TEST(HardInput, BelowTheTerrainNothingIsVisible) {
   const CityModel model = MakeCity(TownHouses(2, 2, 54));
-  const HeightGrid dtm = MakeTerrain({-300, -300}, 2.0, 361, 361, [](double, double) { return 0.0; });
+  const HeightGrid dtm =
+      MakeTerrain({-300, -300}, 2.0, 361, 361, [](double, double) { return 0.0; });
   const Scene scene(model, &dtm, {});
   ExpectSane(scene, {60, 60, -3});
   EXPECT_TRUE(scene.VisibleFrom({60, 60, -3}, {}).pieces.empty());
@@ -185,8 +188,10 @@ TEST(HardInput, EyeOnAVertexAnEdgeAndAFace) {
   ExpectSane(scene, 0.5 * (edge.a + edge.b));
   ExpectSane(scene, edge.b + 2.0 * (edge.b - edge.a));
   const Triangle& triangle = model.triangles[10];
-  ExpectSane(scene, (model.vertices[triangle.vertices[0]] + model.vertices[triangle.vertices[1]] +
-                     model.vertices[triangle.vertices[2]]) / 3.0);
+  ExpectSane(scene,
+             (model.vertices[triangle.vertices[0]] + model.vertices[triangle.vertices[1]] +
+              model.vertices[triangle.vertices[2]]) /
+                 3.0);
 }
 
 TEST(HardInput, TerrainWithHolesAndOddSizes) {

@@ -62,7 +62,8 @@ TEST(Render, DepthSurfaceAndNormalOfABox) {
 
 TEST(Render, TerrainIsHitAndNamed) {
   const CityModel model = OneBox();
-  const HeightGrid dtm = MakeTerrain({-100, -100}, 1.0, 201, 201, [](double, double) { return 0.0; });
+  const HeightGrid dtm =
+      MakeTerrain({-100, -100}, 1.0, 201, 201, [](double, double) { return 0.0; });
   const Scene scene(model, &dtm, {});
   const ViewBuffers buffers = scene.Render(kCamera, PoseAt({0, 0, 2}, {}), true);
   // 2 m below the eye, row 221.5 looks down 100.5 / 250: the ground is 4.975 m away.
@@ -77,8 +78,7 @@ TEST(SurfacePanorama, AgreesWithSingleRays) {
   const Eigen::Vector3d eye(60, 60, 2);
   const PanoramaRange range{{3.0, 0.7}, -0.3, 0.5, 0.03};
   const SurfacePanorama panorama = SurfacesFrom(scene, eye, range);
-  ASSERT_EQ(panorama.surfaces.size(),
-            static_cast<std::size_t>(panorama.columns) * panorama.rows);
+  ASSERT_EQ(panorama.surfaces.size(), static_cast<std::size_t>(panorama.columns) * panorama.rows);
   std::size_t i = 0;
   for (int row = 0; row < panorama.rows; ++row) {
     for (int column = 0; column < panorama.columns; ++column, ++i) {
@@ -91,8 +91,7 @@ TEST(SurfacePanorama, AgreesWithSingleRays) {
       ASSERT_EQ(panorama.surfaces[i] != kNoSurface, distance.has_value()) << row << " " << column;
       EXPECT_EQ(panorama.Find(direction.cast<float>()), &panorama.surfaces[i]);
       if (!distance) continue;
-      const Eigen::Vector3d normal =
-          model.surfaces[panorama.surfaces[i]].normal.cast<double>();
+      const Eigen::Vector3d normal = model.surfaces[panorama.surfaces[i]].normal.cast<double>();
       EXPECT_LT(normal.dot(direction), 0.0) << "the faces of closed houses are seen from outside";
     }
   }
@@ -104,8 +103,8 @@ TEST(Rasterizer, AgreesWithRays) {
   const Scene scene(model, nullptr, {});
   Random random(1, HashText("rasterizer"));
   for (int k = 0; k < 8; ++k) {
-    const ViewAngles angles{random.Uniform(0, 360), random.Uniform(-20, 20),
-                            random.Uniform(-10, 10)};
+    const ViewAngles angles{
+        random.Uniform(0, 360), random.Uniform(-20, 20), random.Uniform(-10, 10)};
     const Pose pose = PoseAt({random.Uniform(0, 180), 60.0 * random.Below(4), 2.0}, angles);
     const cv::Mat depth = RasterizeDepth(model, kCamera, pose, 1e4);
     const ViewBuffers rays = scene.Render(kCamera, pose);

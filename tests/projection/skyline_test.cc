@@ -19,7 +19,8 @@ using testing::MakeTerrain;
 using testing::TownHouses;
 
 Eigen::Vector3d Direction(double azimuth, double elevation) {
-  return {std::sin(azimuth) * std::cos(elevation), std::cos(azimuth) * std::cos(elevation),
+  return {std::sin(azimuth) * std::cos(elevation),
+          std::cos(azimuth) * std::cos(elevation),
           std::sin(elevation)};
 }
 
@@ -49,7 +50,8 @@ TEST(Skyline, SeparatesBuildingsFromSky) {
   const Scene scene(model, nullptr, {});
   Random random(1, HashText("skyline"));
   for (int k = 0; k < 6; ++k) {
-    const Eigen::Vector3d eye(random.Uniform(0, 180), 60.0 * static_cast<double>(random.Below(4)),
+    const Eigen::Vector3d eye(random.Uniform(0, 180),
+                              60.0 * static_cast<double>(random.Below(4)),
                               random.Uniform(1.0, 15.0));
     ExpectSkylineSeparates(scene, eye, {});
   }

@@ -22,7 +22,10 @@ const Eigen::Vector3d kOrigin(60.0, 60.0, 1.6);
 
 bool Same(const VisibleSet& a, const VisibleSet& b) {
   return a.position == b.position && a.skyline_elevation == b.skyline_elevation &&
-         std::equal(a.pieces.begin(), a.pieces.end(), b.pieces.begin(), b.pieces.end(),
+         std::equal(a.pieces.begin(),
+                    a.pieces.end(),
+                    b.pieces.begin(),
+                    b.pieces.end(),
                     [](const VisiblePiece& p, const VisiblePiece& q) {
                       return p.a == q.a && p.b == q.b && p.edge == q.edge && p.left == q.left &&
                              p.right == q.right;
@@ -63,8 +66,8 @@ TEST(VisibilityCache, SameSetsOnAnyNumberOfThreads) {
     VisibilityCache cache(scene, kOrigin, {0.0, 1.5}, options);
     std::vector<std::shared_ptr<const VisibleSet>> sets(300);
     ParallelFor(sets.size(), threads, [&](std::size_t i) {
-      sets[i] = cache.Near(kOrigin + Eigen::Vector3d(static_cast<double>(i % 7),
-                                                     static_cast<double>(i % 5), 0.0));
+      sets[i] = cache.Near(
+          kOrigin + Eigen::Vector3d(static_cast<double>(i % 7), static_cast<double>(i % 5), 0.0));
     });
     return sets;
   };
@@ -98,8 +101,7 @@ double CommonLength(const std::vector<VisiblePiece>& pieces,
         (scene.edge(piece.edge).b - scene.edge(piece.edge).a).normalized().cast<float>();
     const auto [begin, end] = by_edge.equal_range(piece.edge);
     for (auto it = begin; it != end; ++it) {
-      const float first =
-          std::max(along.dot(piece.a - origin), along.dot(it->second->a - origin));
+      const float first = std::max(along.dot(piece.a - origin), along.dot(it->second->a - origin));
       const float last = std::min(along.dot(piece.b - origin), along.dot(it->second->b - origin));
       if (first >= last) continue;
       VisiblePiece part = piece;

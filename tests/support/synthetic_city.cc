@@ -40,8 +40,7 @@ std::uint32_t CityBuilder::AddSurface(std::uint32_t building,
   const std::size_t recent = first_vertex_of_building_[building];
   std::vector<std::uint32_t> indices;
   for (const Eigen::Vector3d& point : ring) indices.push_back(VertexAt(model_, point, recent));
-  const Eigen::Vector3d normal =
-      (ring[1] - ring[0]).cross(ring[2] - ring[0]).normalized();
+  const Eigen::Vector3d normal = (ring[1] - ring[0]).cross(ring[2] - ring[0]).normalized();
   model_.surfaces.push_back({surface_class, building, normal.cast<float>()});
   for (std::size_t k = 1; k + 1 < indices.size(); ++k) {
     model_.triangles.push_back({{indices[0], indices[k], indices[k + 1]}, surface});
@@ -56,41 +55,57 @@ void CityBuilder::AddHouse(const House& house) {
   const Eigen::Vector2d along(std::sin(heading), std::cos(heading));
   const Eigen::Vector2d across(std::cos(heading), -std::sin(heading));
   const auto corner = [&](double l, double w, double height) {
-    const Eigen::Vector2d p = house.center + l * house.length_m / 2 * along +
-                              w * house.width_m / 2 * across;
+    const Eigen::Vector2d p =
+        house.center + l * house.length_m / 2 * along + w * house.width_m / 2 * across;
     return Eigen::Vector3d(p.x(), p.y(), house.ground_m + height);
   };
   const double eaves = house.eaves_m;
   const double ridge = house.ridge_m;
   const auto wall = SurfaceClass::kWall;
-  AddSurface(building, SurfaceClass::kGround,
+  AddSurface(building,
+             SurfaceClass::kGround,
              {corner(-1, -1, 0), corner(1, -1, 0), corner(1, 1, 0), corner(-1, 1, 0)});
-  AddSurface(building, wall,
+  AddSurface(building,
+             wall,
              {corner(-1, 1, 0), corner(1, 1, 0), corner(1, 1, eaves), corner(-1, 1, eaves)});
-  AddSurface(building, wall,
+  AddSurface(building,
+             wall,
              {corner(1, -1, 0), corner(-1, -1, 0), corner(-1, -1, eaves), corner(1, -1, eaves)});
   if (ridge > eaves) {
-    AddSurface(building, wall,
-               {corner(1, 1, 0), corner(1, -1, 0), corner(1, -1, eaves), corner(1, 0, ridge),
+    AddSurface(building,
+               wall,
+               {corner(1, 1, 0),
+                corner(1, -1, 0),
+                corner(1, -1, eaves),
+                corner(1, 0, ridge),
                 corner(1, 1, eaves)});
-    AddSurface(building, wall,
-               {corner(-1, -1, 0), corner(-1, 1, 0), corner(-1, 1, eaves), corner(-1, 0, ridge),
+    AddSurface(building,
+               wall,
+               {corner(-1, -1, 0),
+                corner(-1, 1, 0),
+                corner(-1, 1, eaves),
+                corner(-1, 0, ridge),
                 corner(-1, -1, eaves)});
-    AddSurface(building, SurfaceClass::kRoof,
-               {corner(-1, 1, eaves), corner(1, 1, eaves), corner(1, 0, ridge),
-                corner(-1, 0, ridge)});
-    AddSurface(building, SurfaceClass::kRoof,
-               {corner(1, -1, eaves), corner(-1, -1, eaves), corner(-1, 0, ridge),
-                corner(1, 0, ridge)});
+    AddSurface(
+        building,
+        SurfaceClass::kRoof,
+        {corner(-1, 1, eaves), corner(1, 1, eaves), corner(1, 0, ridge), corner(-1, 0, ridge)});
+    AddSurface(
+        building,
+        SurfaceClass::kRoof,
+        {corner(1, -1, eaves), corner(-1, -1, eaves), corner(-1, 0, ridge), corner(1, 0, ridge)});
     return;
   }
-  AddSurface(building, wall,
+  AddSurface(building,
+             wall,
              {corner(1, 1, 0), corner(1, -1, 0), corner(1, -1, eaves), corner(1, 1, eaves)});
-  AddSurface(building, wall,
+  AddSurface(building,
+             wall,
              {corner(-1, -1, 0), corner(-1, 1, 0), corner(-1, 1, eaves), corner(-1, -1, eaves)});
-  AddSurface(building, SurfaceClass::kRoof,
-             {corner(-1, -1, eaves), corner(-1, 1, eaves), corner(1, 1, eaves),
-              corner(1, -1, eaves)});
+  AddSurface(
+      building,
+      SurfaceClass::kRoof,
+      {corner(-1, -1, eaves), corner(-1, 1, eaves), corner(1, 1, eaves), corner(1, -1, eaves)});
 }
 
 CityModel CityBuilder::Build(double min_dihedral_deg) const {
@@ -135,7 +150,8 @@ std::vector<House> TownHouses(int blocks_east, int blocks_north, std::uint64_t s
   std::vector<House> houses;
   for (int north = 0; north < blocks_north; ++north) {
     for (int east = 0; east < blocks_east; ++east) {
-      Random random(seed, HashText("town block"),
+      Random random(seed,
+                    HashText("town block"),
                     static_cast<std::uint64_t>(north) * 100003u + static_cast<std::uint64_t>(east));
       const Eigen::Vector2d origin(east * kBlockPitch + kStreet / 2,
                                    north * kBlockPitch + kStreet / 2);

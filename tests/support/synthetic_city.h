@@ -28,8 +28,8 @@ class CityBuilder {
   std::uint32_t AddBuilding(const std::string& id);
   // A closed, oriented house as a building of its own.
   void AddHouse(const House& house);
-  // A plane polygon, counter-clockwise from outside, convex. Vertices at equal places are one within
-  // the present building.
+  // A plane polygon, counter-clockwise from outside, convex. Vertices at equal places are one
+  // within the present building.
   std::uint32_t AddSurface(std::uint32_t building,
                            SurfaceClass surface_class,
                            const std::vector<Eigen::Vector3d>& ring);
@@ -45,8 +45,8 @@ class CityBuilder {
 
 CityModel MakeCity(const std::vector<House>& houses);
 
-// Houses in blocks along streets 12 m wide, heights and roofs drawn, on flat ground at height 0; about
-// 16 triangles each. The streets' crossings lie at multiples of kBlockPitch.
+// Houses in blocks along streets 12 m wide, heights and roofs drawn, on flat ground at height 0;
+// about 16 triangles each. The streets' crossings lie at multiples of kBlockPitch.
 inline constexpr double kBlockPitch = 60.0;
 std::vector<House> TownHouses(int blocks_east, int blocks_north, std::uint64_t seed);
 
