@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "cli/command.h"
 #include "cli/progress.h"
+#include "cli/run_outputs.h"
 #include "eval/bench.h"
 #include "eval/bench_files.h"
 #include "eval/world.h"
@@ -25,6 +26,7 @@ struct BenchArguments {
   std::string score_only;
   int seed = 1;
   int seeds = 1;
+  RunOutputs outputs;
   ConfigArguments config;
 };
 
@@ -95,6 +97,24 @@ std::vector<RunRecord> ScorePoses(const Dataset& dataset, const fs::path& path) 
   return records;
 }
 
+// With --out the report goes there, unless another place is named.
+RunOutputs OutputsOf(const BenchArguments& arguments) {
+  RunOutputs outputs = arguments.outputs;
+  if (outputs.report.empty() && !arguments.out.empty() && arguments.score_only.empty()) {
+    outputs.report = (fs::path(arguments.out) / "report.html").string();
+  }
+  return outputs;
+}
+
+std::string CommandOf(const BenchArguments& arguments) {
+  std::string command = "ridgeline bench " + arguments.dataset;
+  if (!arguments.config.config.empty()) command += " --config " + arguments.config.config;
+  for (const std::string& assignment : arguments.config.set) command += " --set " + assignment;
+  if (!arguments.perturb.empty()) command += " --perturb " + arguments.perturb;
+  return command + " --seed " + std::to_string(arguments.seed) + " --seeds " +
+         std::to_string(arguments.seeds);
+}
+
 int RunBenchCommand(const BenchArguments& arguments, const Context& context) {
   const Dataset dataset = ReadDataset(arguments.dataset);
   LocalizerOptions options;
@@ -111,6 +131,8 @@ int RunBenchCommand(const BenchArguments& arguments, const Context& context) {
     if (error) throw InputError("--out", "", arguments.out + ": " + error.message(), "a folder");
     TemporaryBeside(fs::path(arguments.out) / "results.csv");  // fails before the work, not after
   }
+  const RunOutputs outputs = OutputsOf(arguments);
+  CheckRunOutputs(outputs, true);
   if (!arguments.score_only.empty()) {
     WriteResults(arguments, dataset, ScorePoses(dataset, arguments.score_only),
                  Eigen::Vector3d::Zero(), context);
@@ -122,6 +144,7 @@ int RunBenchCommand(const BenchArguments& arguments, const Context& context) {
   for (const std::string& warning : world.warnings) context.Warn(warning);
   const Localizer localizer(world.model, world.dtm, options);
   std::vector<RunRecord> records;
+  std::vector<BenchRun> runs;
   {
     std::unique_ptr<Progress> progress;
     const auto show = [&](const BenchRun& run, std::size_t done, std::size_t total) {
@@ -129,9 +152,20 @@ int RunBenchCommand(const BenchArguments& arguments, const Context& context) {
       progress->Set(done);
       records.push_back(run.record);
     };
-    RunBench(dataset, localizer, bench, show);
+    runs = RunBench(dataset, localizer, bench, show);
   }
   WriteResults(arguments, dataset, records, world.model.origin_in_world, context);
+  const PoseSpaceOptions& space = options.search.space;
+  WriteRunOutputs(outputs,
+                  true,
+                  {"Bench of " + dataset.name,
+                   CommandOf(arguments),
+                   OptionsToJson([&](OptionVisitor& v) { options.Visit(v); })},
+                  dataset.queries,
+                  localizer,
+                  bench.perturb ? RangesOf(space, *bench.perturb) : space,
+                  runs,
+                  context);
   return kExitOk;
 }
 
@@ -148,7 +182,7 @@ void AddBenchCommand(CLI::App& app, Context& context) {
                  [arguments](Context& c) { return RunBenchCommand(*arguments, c); });
   command->add_option("dataset", arguments->dataset, "dataset.json")->required();
   command->add_option("--out", arguments->out,
-                      "Folder for results.csv, summary.json and poses.txt");
+                      "Folder for results.csv, summary.json, poses.txt and report.html");
   command->add_option("--perturb", arguments->perturb,
                       "Draw priors around the truth: east,north,height,heading[,pitch,roll] "
                       "half-ranges in m and deg; also the ranges of the search");
@@ -157,6 +191,7 @@ void AddBenchCommand(CLI::App& app, Context& context) {
       ->check(CLI::Range(1, 1000));
   command->add_option("--score-only", arguments->score_only,
                       "Score another system's poses: CSV query,e,n,h,qw,qx,qy,qz");
+  AddRunOutputOptions(*command, arguments->outputs, true);
   AddConfigOptions(*command, arguments->config);
 }
 

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <opencv2/core/utility.hpp>
 #include <string>
+#include <vector>
 #include <unistd.h>
 
 #include "base/atomic_file.h"
@@ -29,6 +30,14 @@ int Fail(const Context& context, const std::string& message, int exit_code) {
   return exit_code;
 }
 
+std::string UnknownCommand(const CLI::App& app, const std::string& word) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(command->get_name());
+  }
+  return "no command \"" + word + "\"; did you mean \"" + NearestName(word, names) + "\"?";
+}
+
 int Parse(CLI::App& app, int argc, char** argv, const Context& context) {
   try {
     app.parse(argc, argv);
@@ -39,7 +48,9 @@ int Parse(CLI::App& app, int argc, char** argv, const Context& context) {
   } catch (const CLI::ParseError& e) {
     const auto chosen = app.get_subcommands();
     const std::string name = chosen.empty() ? "ridgeline" : "ridgeline " + chosen[0]->get_name();
-    return Fail(context, std::string(e.what()) + "\nSee " + name + " --help", kExitBadInput);
+    std::string message = e.what();
+    if (chosen.empty() && argc > 1 && argv[1][0] != '-') message = UnknownCommand(app, argv[1]);
+    return Fail(context, message + "\nSee " + name + " --help", kExitBadInput);
   }
 }
 
