@@ -49,10 +49,11 @@
   }
   if (count('abstained')) parts.push(`${count('abstained')} abstained`);
   if (count('unknown')) parts.push(`${count('unknown')} without truth`);
+  if (summary.runs.length === 1) parts.length = 0;  // the run says it itself
   $('sentence').textContent = parts.join(', ');
   $('sentence').hidden = parts.length === 0;
   $('bar').setAttribute('aria-label', parts.join(', '));
-  $('bar').hidden = summary.runs.length === 0;
+  $('bar').hidden = summary.runs.length < 2;
   for (const outcome of outcomes) {
     if (count(outcome) === 0) continue;
     const piece = make('span', outcome);
@@ -77,7 +78,8 @@
     }
     if (summary.runs.filter((r) => r.translation !== null).length > 1) {
       Plots.figure($('plots'), 'Score against error',
-        'A score that can be trusted keeps the right poses low.', Plots.scatter(summary.runs));
+        'A score that can be trusted keeps the right poses low. Click a point to see its photo.',
+        Plots.scatter(summary.runs, (index) => open(summary.runs[index])));
     }
     if (withTruth > 1 && summary.reliability.length > 0) {
       Plots.figure($('plots'), 'Reliability',

@@ -97,6 +97,9 @@ const Detail = (() => {
       row.append('result', range, 'prior');
       box.append(row);
     }
+    if (detail.priorLayers.length === 0) {
+      box.append(make('p', 'dim', 'No edge of the model is in view from the prior.'));
+    }
     const layers = detail.resultLayers.length > 0 ? detail.resultLayers : detail.priorLayers;
     box.append(legend(layers));
     return box;
@@ -203,7 +206,7 @@ const Detail = (() => {
     const look = Plots.layout(
       Plots.axis('east of the prior [m]', {range: xRange, constrain: 'domain'}),
       Plots.axis('north [m]', {range: yRange, scaleanchor: 'x', constrain: 'domain'}),
-      {legend: {orientation: 'h', y: -0.28, x: 0, font: {size: 11}}});
+      {showlegend: false});
     if (detail.hillshade) {
       const {url, lower, upper} = detail.hillshade;
       look.images = [{source: url, xref: 'x', yref: 'y', x: lower[0], y: upper[1],
@@ -212,6 +215,11 @@ const Detail = (() => {
     }
     return {data, layout: look};
   };
+
+  // What the map's signs mean, below it.
+  const mapLegend = (data) => legend(data.map((trace) => ({name: trace.name,
+    color: trace.fillcolor || (trace.marker && trace.marker.color) || (trace.line && trace.line.color)}))
+    .filter((entry) => entry.color));
 
   const tracePlot = (trace) => () => ({
     data: [{y: trace, x: trace.map((_, i) => i + 1), mode: 'lines',
@@ -262,8 +270,10 @@ const Detail = (() => {
     const drawable = typeof Plotly !== 'undefined' &&
       (detail.map || detail.prior || detail.result || detail.truth);
     if (drawable) {
-      Plots.figure(columns, 'Map', 'Least energy over all headings at each position; bright is best.',
-        mapPlot(detail));
+      const note = detail.map ? 'Least energy over all headings at each position; bright is best.' :
+        'Positions; this search makes no map of the energy.';
+      Plots.figure(columns, 'Map', note, mapPlot(detail), true);
+      columns.firstChild.append(mapLegend(mapPlot(detail)().data));
     }
     const right = make('div');
     const poses = poseRows(detail);
@@ -274,7 +284,8 @@ const Detail = (() => {
     if (detail.facts.length > 0) right.append(make('h3', '', 'Figures'), table(detail.facts));
     columns.append(right);
     if (typeof Plotly !== 'undefined' && detail.trace.length > 1) {
-      Plots.figure(columns, 'Search', 'Best energy after each evaluation.', tracePlot(detail.trace));
+      Plots.figure(columns, 'Search', 'Best energy after each evaluation.',
+        tracePlot(detail.trace), true);
     }
     body.append(columns);
   };

@@ -24,8 +24,10 @@ const Plots = (() => {
     modeBarButtonsToRemove: ['lasso2d', 'select2d', 'autoScale2d']};
 
   const render = (element) => {
-    const {data, layout: look} = drawn.get(element)();
+    const {data, layout: look, open} = drawn.get(element)();
+    const first = !element.classList.contains('js-plotly-plot');
     Plotly.react(element, data, look, config);
+    if (first && open) element.on('plotly_click', (event) => open(event.points[0].customdata));
   };
 
   const observer = typeof IntersectionObserver === 'function' ?
@@ -38,12 +40,17 @@ const Plots = (() => {
     }, {rootMargin: '300px'}) : null;
 
   // `make` gives {data, layout}; called again when the theme changes.
-  const add = (element, make) => {
+  const add = (element, make, now) => {
     drawn.set(element, make);
-    if (observer) observer.observe(element); else render(element);
+    if (observer && !now) {
+      observer.observe(element);
+    } else {
+      requestAnimationFrame(() => { if (drawn.has(element)) render(element); });
+    }
   };
 
-  const figure = (parent, title, note, make) => {
+  // `now`: not only when it comes into view.
+  const figure = (parent, title, note, make, now = false) => {
     const box = document.createElement('figure');
     box.className = 'plot';
     const caption = document.createElement('figcaption');
@@ -59,7 +66,7 @@ const Plots = (() => {
     chart.setAttribute('aria-label', title + '. ' + note);
     box.append(caption, chart);
     parent.append(box);
-    add(chart, make);
+    add(chart, make, now);
   };
 
   const forget = (root) => {

@@ -159,7 +159,26 @@ std::string ErrorText(const Spread& translation_m, const Spread& rotation_deg) {
   return Text("%.2f m, ", translation_m.median) + Text("%.2f°", rotation_deg.median);
 }
 
+// 14900 as "14 900".
+std::string Grouped(double value) {
+  std::string text = Text("%.0f", value);
+  for (int at = static_cast<int>(text.size()) - 3; at > 0; at -= 3) text.insert(at, "\u202f");
+  return text;
+}
+
 void AddSummary(std::span<const BenchRun> runs, ReportData& data) {
+  if (runs.size() == 1) {
+    const RunRecord& record = runs.front().record;
+    if (record.error) {
+      data.facts.emplace_back("error", Text("%.2f m, ", record.error->translation_m) +
+                                           Text("%.2f°", record.error->rotation_deg));
+    }
+    data.facts.emplace_back("confidence", Text("%.2f", record.confidence));
+    data.facts.emplace_back("time", Text("%.2f s", record.seconds));
+    data.facts.emplace_back("poses evaluated",
+                            Grouped(static_cast<double>(record.evaluations)));
+    return;
+  }
   std::vector<RunRecord> records;
   for (const BenchRun& run : runs) records.push_back(run.record);
   const Summary summary = Summarize(records);
@@ -172,7 +191,7 @@ void AddSummary(std::span<const BenchRun> runs, ReportData& data) {
   }
   data.facts.emplace_back("abstained", Percent(summary.abstained));
   data.facts.emplace_back("time per photo", Text("%.2f s", summary.seconds_median));
-  data.facts.emplace_back("poses per second", Text("%.3g", summary.evaluations_per_second));
+  data.facts.emplace_back("poses per second", Grouped(summary.evaluations_per_second));
   if (summary.runs < 2) return;
 
   ReportTable table{"Recall", {"within", "of all runs", "95 % interval", "of the answered"}, {}};

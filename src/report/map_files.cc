@@ -195,6 +195,8 @@ void WriteMap(std::span<const ReportRun> runs, int epsg, const fs::path& path) {
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(driver_name.c_str());
   DatasetPtr dataset(driver->Create(temporary.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
   if (!dataset) FailWriting(path);
+  // One transaction for the whole file: SQLite flushes the disk for each.
+  if (many_layers && dataset->StartTransaction() != OGRERR_NONE) FailWriting(path);
   std::map<std::string, OGRLayer*> layers;
   const auto layer_of = [&](const Feature& feature) {
     const std::string name = many_layers ? feature.layer : "ridgeline";
@@ -205,16 +207,13 @@ void WriteMap(std::span<const ReportRun> runs, int epsg, const fs::path& path) {
           name.c_str(), layer_system, many_layers ? TypeOf(feature.shape) : wkbUnknown, nullptr);
       if (layer == nullptr) FailWriting(path);
       AddFields(*layer);
-      if (many_layers && layer->StartTransaction() != OGRERR_NONE) FailWriting(path);
     }
     return layer;
   };
   for (const Feature& feature : FeaturesOf(runs)) {
     if (!AddFeature(feature, to_wgs84.get(), *layer_of(feature))) FailWriting(path);
   }
-  for (const auto& [name, layer] : layers) {
-    if (many_layers && layer->CommitTransaction() != OGRERR_NONE) FailWriting(path);
-  }
+  if (many_layers && dataset->CommitTransaction() != OGRERR_NONE) FailWriting(path);
   dataset.reset();
   CommitFile(temporary, path);
 }

@@ -50,7 +50,7 @@ const char* EdgeName(EdgeKind kind) {
     case EdgeKind::kSkyline:
       return "model edge against the sky";
     case EdgeKind::kOcclusion:
-      return "model edge before something else";
+      return "model edge before house or ground";
     case EdgeKind::kFold:
       return "corner, eaves or ridge";
     case EdgeKind::kGround:
@@ -77,7 +77,7 @@ std::vector<OverlayLayer> ModelEdgeLayers(const Scene& scene,
     OverlayLayer layer;
     layer.name = EdgeName(kind);
     layer.color = EdgeColor(kind);
-    layer.width_px = kind == EdgeKind::kSkyline ? 2.4 : 1.8;
+    layer.width_px = kind == EdgeKind::kSkyline ? 1.9 : 1.4;
     for (const ProjectedSegment& segment : segments) {
       if (KindOf(visible.pieces[segment.piece], scene) != kind) continue;
       layer.lines.push_back({segment.a, segment.b});
