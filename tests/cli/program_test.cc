@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program as a user meets it: run as a process, by its exit codes and its words.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+struct Outcome {
+  int exit_code = -1;
+  std::string text;  // stdout, and stderr unless it was sent elsewhere
+};
+
+Outcome Run(const std::string& arguments) {
+  const std::string command = std::string(RIDGELINE_PROGRAM) + " " + arguments + " 2>&1";
+  FILE* pipe = ::popen(command.c_str(), "r");
+  Outcome outcome;
+  std::array<char, 4096> buffer{};
+  std::size_t count = 0;
+  while ((count = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0) {
+    outcome.text.append(buffer.data(), count);
+  }
+  const int status = ::pclose(pipe);
+  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return outcome;
+}
+
+fs::path Scratch(const std::string& name) {
+  const fs::path folder = fs::path(::testing::TempDir()) / ("ridgeline cli " + name);
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  return folder;
+}
+
+std::string Quoted(const fs::path& path) { return "'" + path.string() + "'"; }
+
+// A town of one small picture; made once.
+const fs::path& Town() {
+  static const fs::path town = [] {
+    const fs::path folder = Scratch("town") / "town";
+    Run("synth --quiet --queries 1 --tilted 0 --portrait 0 --drone 0 --size 320x240 "
+        "--set town.blocks_east=2 --set town.blocks_north=2 --out " + Quoted(folder));
+    return folder;
+  }();
+  return town;
+}
+
+TEST(Program, WithoutACommandSaysWhereHelpIs) {
+  const Outcome outcome = Run("");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.text, HasSubstr("ridgeline --help"));
+}
+
+TEST(Program, MistypedCommandNamesTheNearest) {
+  const Outcome outcome = Run("bensh");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.text, HasSubstr("bench"));
+}
+
+TEST(Program, MistypedOptionPointsToTheCommandsHelp) {
+  const Outcome outcome = Run("synth --out x --sede 3");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.text, AllOf(HasSubstr("--sede"), HasSubstr("ridgeline synth --help")));
+}
+
+TEST(Program, HelpOfEveryCommandFitsAScreenAndHasAnExample) {
+  std::istringstream help(Run("--help").text);
+  std::string line;
+  bool in_commands = false;
+  int commands = 0;
+  while (std::getline(help, line)) {
+    if (line == "Subcommands:") {
+      in_commands = true;
+      continue;
+    }
+    if (!in_commands || line.size() < 3 || line[2] == ' ') continue;
+    if (line.empty() || line[0] != ' ') break;
+    const std::string name = line.substr(2, line.find(' ', 2) - 2);
+    const Outcome outcome = Run(name + " --help");
+    EXPECT_EQ(outcome.exit_code, 0) << name;
+    EXPECT_THAT(outcome.text, HasSubstr("Example:\n  ridgeline " + name)) << name;
+    EXPECT_LE(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 50) << name;
+    ++commands;
+  }
+  EXPECT_GE(commands, 8);
+}
+
+TEST(Program, JsonIsJsonAndNothingElse) {
+  const auto json = nlohmann::json::parse(Run("version --json").text, nullptr, false);
+  ASSERT_FALSE(json.is_discarded());
+  EXPECT_TRUE(json.contains("ridgeline"));
+}
+
+TEST(Program, WritesNoColoursIntoAPipe) {
+  EXPECT_THAT(Run("bensh").text, Not(HasSubstr("\033[")));
+}
+
+TEST(Synth, MakesADatasetAndRefusesToOverwriteIt) {
+  EXPECT_TRUE(fs::exists(Town() / "dataset.json"));
+  const Outcome again = Run("synth --out " + Quoted(Town()));
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_THAT(again.text, AllOf(HasSubstr("exists"), HasSubstr("--overwrite")));
+}
+
+TEST(Synth, NamesTheNearestKey) {
+  const Outcome outcome = Run("synth --out x --set town.block=70");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.text, HasSubstr("town.block_m"));
+}
+
+TEST(Synth, RefusesSizesThatAreNone) {
+  EXPECT_THAT(Run("synth --out x --size 12by9").text, HasSubstr("WIDTHxHEIGHT"));
+}
+
+TEST(Synth, LeavesNothingBehindWhenInterrupted) {
+  const fs::path folder = Scratch("interrupt");
+  const std::string out = (folder / "town").string();
+  const pid_t child = ::fork();
+  if (child == 0) {
+    std::freopen("/dev/null", "w", stderr);
+    ::execl(RIDGELINE_PROGRAM, "ridgeline", "synth", "--queries", "200", "--out", out.c_str(),
+            static_cast<char*>(nullptr));
+    ::_exit(99);
+  }
+  // Until its temporary folder is there.
+  for (int i = 0; i < 200 && fs::is_empty(folder); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  EXPECT_FALSE(fs::is_empty(folder));
+  ::kill(child, SIGINT);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  EXPECT_TRUE(fs::is_empty(folder));
+}
+
+TEST(Render, WritesWhatWasAskedFor) {
+  const fs::path folder = Scratch("render");
+  const Outcome outcome =
+      Run("render --json --dataset " + Quoted(Town() / "dataset.json") + " --query street_000 --out " +
+          Quoted(folder / "edges.svg") + " --depth " + Quoted(folder / "depth.png"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_TRUE(fs::exists(folder / "edges.svg"));
+  EXPECT_TRUE(fs::exists(folder / "depth.png"));
+}
+
+TEST(Render, MistypedQueryNamesTheNearest) {
+  const Outcome outcome = Run("render --dataset " + Quoted(Town() / "dataset.json") +
+                              " --query stret_000 --out x.png");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.text, HasSubstr("street_000"));
+}
+
+TEST(Render, SaysWhatAPoseIs) {
+  const Outcome outcome = Run("render --dataset " + Quoted(Town() / "dataset.json") +
+                              " --query street_000 --pose 1,2,3 --out x.png");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.text, HasSubstr("east,north,height,heading,pitch,roll"));
+}
+
+TEST(Completion, ShellsAcceptTheScripts) {
+  const fs::path folder = Scratch("completion");
+  EXPECT_EQ(Run("completion bash > " + Quoted(folder / "bash")).exit_code, 0);
+  EXPECT_EQ(std::system(("bash -n " + Quoted(folder / "bash")).c_str()), 0);
+  const std::string ask = "bash -c 'source \"$0\"; COMP_WORDS=(ridgeline render --at \"\"); "
+                          "COMP_CWORD=3; _ridgeline; echo ${COMPREPLY[@]}' " +
+                          Quoted(folder / "bash") + " > " + Quoted(folder / "reply");
+  EXPECT_EQ(std::system(ask.c_str()), 0);
+  std::ifstream reply(folder / "reply");
+  std::string words;
+  std::getline(reply, words);
+  EXPECT_THAT(words, AllOf(HasSubstr("truth"), HasSubstr("prior")));
+}
+
+TEST(Completion, WritesAManPagePerCommand) {
+  const fs::path folder = Scratch("man");
+  EXPECT_EQ(Run("completion man --out " + Quoted(folder)).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder / "ridgeline.1"));
+  EXPECT_TRUE(fs::exists(folder / "ridgeline-synth.1"));
+}
+
+TEST(Doctor, ChecksTheSetUp) {
+  const Outcome outcome = Run("doctor --quick --json");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_FALSE(nlohmann::json::parse(outcome.text, nullptr, false).is_discarded());
+}
+
+}  // namespace
