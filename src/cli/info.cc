@@ -240,6 +240,7 @@ void AddInfoCommand(CLI::App& app, Context& context) {
   command->add_option("--model-crs", arguments->city.model_crs, "Overrides the models' CRS");
   command->add_option(
       "--project-to", arguments->city.project_to, "Projected CRS to move models to");
+  command->add_option("--height-offset", arguments->city.height_offset_m, "Added to heights [m]");
   command->add_option("--lod", arguments->city.lod, "Level of detail wanted")
       ->check(CLI::Range(1, 4));
 }
