@@ -2,11 +2,15 @@
 #include "localize/downhill_simplex.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
 namespace ridgeline {
 namespace {
+
+// A simplex is small when it has shrunk to this share of its first steps.
+constexpr double kSmall = 0.1;
 
 struct Corner {
   std::vector<double> point;
@@ -19,7 +23,7 @@ class Round {
   Round(const std::function<double(std::span<const double>)>& function,
         const SimplexSteps& steps,
         SimplexResult& best)
-      : function_(function), best_(best) {
+      : function_(function), steps_(steps), best_(best) {
     for (std::size_t i = 0; i < steps.size(); ++i) {
       if (steps[i] != 0.0) free_.push_back(i);
     }
@@ -37,8 +41,13 @@ class Round {
       std::stable_sort(corners_.begin(), corners_.end(), [](const Corner& a, const Corner& b) {
         return a.value < b.value;
       });
-      if (corners_.back().value - corners_.front().value < options.tolerance) break;
-      Step();
+      if (corners_.back().value - corners_.front().value >= options.tolerance) {
+        Step();
+      } else if (IsSmall()) {
+        break;
+      } else {
+        Shrink();  // corners of a valley, as high on either side
+      }
     }
     const auto least = std::min_element(
         corners_.begin(), corners_.end(), [](const Corner& a, const Corner& b) {
@@ -49,6 +58,16 @@ class Round {
   }
 
  private:
+  bool IsSmall() const {
+    for (const Corner& corner : corners_) {
+      for (const std::size_t i : free_) {
+        const double extent = std::abs(corner.point[i] - corners_.front().point[i]);
+        if (extent > kSmall * std::abs(steps_[i])) return false;
+      }
+    }
+    return true;
+  }
+
   Corner Evaluated(std::vector<double> point) {
     ++evaluations_;
     ++best_.evaluations;
@@ -89,6 +108,11 @@ class Round {
       worst = std::move(contracted);
       return;
     }
+    Shrink();
+  }
+
+  // Halves the distances to the best corner.
+  void Shrink() {
     const std::vector<double> best = corners_.front().point;
     for (std::size_t k = 1; k < corners_.size(); ++k) {
       std::vector<double> point = corners_[k].point;
@@ -98,6 +122,7 @@ class Round {
   }
 
   const std::function<double(std::span<const double>)>& function_;
+  const SimplexSteps& steps_;
   SimplexResult& best_;
   std::vector<std::size_t> free_;
   std::vector<Corner> corners_;

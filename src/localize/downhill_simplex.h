@@ -12,7 +12,8 @@ namespace ridgeline {
 using SimplexSteps = std::vector<double>;
 
 struct SimplexOptions {
-  // A round ends when its corners differ by less than this in the function.
+  // A round ends when its corners differ by less than this in the function, and lie within a tenth
+  // of its steps.
   double tolerance = 1e-3;
   // Evaluations of a round at most.
   int max_evaluations = 200;
