@@ -162,6 +162,16 @@ class StoreWriter {
     if (dataset_ == nullptr) Create(part);
   }
 
+  // A store without a single tile is of no use to the next run.
+  ~StoreWriter() {
+    if (dataset_ == nullptr || tiles_->GetFeatureCount() > 0) return;
+    dataset_.reset();
+    std::error_code error;
+    fs::remove(file_, error);
+  }
+  StoreWriter(const StoreWriter&) = delete;
+  StoreWriter& operator=(const StoreWriter&) = delete;
+
   bool HasTile(const Tile& tile) const {
     const auto it = done_.find(tile.path);
     return it != done_.end() && it->second == std::pair(tile.bytes, tile.modified);

@@ -198,8 +198,8 @@ int RunInfo(const InfoArguments& arguments, const Context& context) {
   std::vector<fs::path> rasters;
   for (const std::string& file : arguments.files) {
     std::error_code error;
-    const bool is_model =
-        fs::is_directory(file, error) || !fs::exists(file, error) || LooksLikeModelFile(file);
+    const bool is_model = fs::is_directory(file, error) || !fs::exists(file, error) ||
+                          fs::path(file).extension() == ".gpkg" || LooksLikeModelFile(file);
     (is_model ? models : rasters).emplace_back(file);
   }
   Json results = Json::array();

@@ -188,6 +188,9 @@ TEST(CityStore, OtherFilesAreRefused) {
               HasSubstr("cannot be opened as a GeoPackage"));
   EXPECT_THAT(ErrorOf([&] { WriteCityStore(town.tiles, town.folder.path() / "city.db", {}); }),
               HasSubstr("a name without .gpkg"));
+  const fs::path bad = town.folder.Write("bad.gml", "no model");
+  EXPECT_NE(ErrorOf([&] { WriteCityStore({bad}, town.store, {}); }), "");
+  EXPECT_FALSE(fs::exists(town.folder.path() / "city.part.gpkg"));
   EXPECT_THAT(ErrorOf([&] { WriteCityStore(town.tiles, "/nowhere/city.gpkg", {}); }),
               HasSubstr("a folder that cannot be written"));
   WriteCityStore(town.tiles, town.store, {});
