@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/commands.h"
 
+#include "cli/augment.h"
 #include "cli/bench.h"
 #include "cli/completion.h"
 #include "cli/doctor.h"
@@ -25,6 +26,7 @@ constexpr AddFunction kCommands[] = {
     AddInfoCommand,
     AddRenderCommand,
     AddSkylineCommand,
+    AddAugmentCommand,
     AddSynthCommand,
     AddDoctorCommand,
     AddCompletionCommand,
