@@ -58,7 +58,7 @@ void Record(const Query& query, const Localizer& localizer, const Settings& sett
   const cv::Mat bgr = UndistortImage(BgrOf(input.picture), input.camera);
   const PictureEvidence evidence(
       bgr, input.camera.Pinhole(), options.lines, options.score.evidence, input.lines);
-  const auto score = MakeScore(options.score, evidence, bgr, localizer.scene());
+  const auto score = MakeScore(options.score, evidence, bgr, input.camera.Pinhole(), localizer.scene(), 1.0);
   const PoseSpace space(
       input.prior, ranges, localizer.scene(), localizer.dtm(), localizer.footprints());
   const ViewAngles& center = space.center_angles();

@@ -134,10 +134,11 @@ Localization Localizer::Localize(const LocalizationInput& input,
 
   // The picture.
   const cv::Mat bgr = UndistortImage(BgrOf(input.picture), input.camera);
+  const PinholeCamera camera = input.camera.Pinhole();
   const PictureEvidence evidence(
-      bgr, input.camera.Pinhole(), options.lines, options.score.evidence, input.lines);
+      bgr, camera, options.lines, options.score.evidence, threads, input.lines);
   const std::unique_ptr<Score> score =
-      MakeScore(options.score, evidence, bgr, input.camera.Pinhole(), scene);
+      MakeScore(options.score, evidence, bgr, camera, scene, 1.0);
   lap("picture");
   if (evidence.segments().size() < kMinLines) {
     result.status = LocalizationStatus::kTooFewLines;
@@ -162,7 +163,11 @@ Localization Localizer::Localize(const LocalizationInput& input,
                                               ranges.roll_deg,
                                               kTiltSeparationDeg,
                                               map.tilts);
-    volume = ComputeVolume(*score, scene, space, evidence.camera(), tilts, surface_step_rad, map,
+    // Between the places of a wide grid the model's edges are off by as much as the model errs.
+    const double spacing_m = SpacingOf(ranges, map);
+    const std::unique_ptr<Score> coarse_score =
+        MakeScore(options.score, evidence, bgr, camera, scene, std::max(1.0, spacing_m));
+    volume = ComputeVolume(*coarse_score, scene, space, evidence.camera(), tilts, surface_step_rad, map,
                            threads);
     result.evaluations = volume->evaluations;
     result.map = MapOf(*volume, space, impl_->model);
@@ -195,7 +200,8 @@ Localization Localizer::Localize(const LocalizationInput& input,
         return x.log_ratio > y.log_ratio;
       });
     };
-    refine(modes.size(), {0.5, 0.5, 0.3});
+    const double first_m = volume ? 0.5 * SpacingOf(ranges, options.search.map) : 0.5;
+    refine(modes.size(), {first_m, 0.5, 0.3});
     refine((modes.size() + 2) / 3, {0.25, 0.25, 0.06});
     lap("refinement");
   }

@@ -48,7 +48,7 @@ void ScoreOptions::Validate() const {
 void MapOptions::Visit(OptionVisitor& v) {
   v.Field("spacing_m", spacing_m);
   v.Field("heading_step_deg", heading_step_deg);
-  v.Field("height_step_m", height_step_m);
+  v.Field("max_positions", max_positions);
   v.Field("tilts", tilts);
   v.Field("modes", modes);
   v.Field("mode_separation_m", mode_separation_m);
@@ -58,7 +58,7 @@ void MapOptions::Visit(OptionVisitor& v) {
 void MapOptions::Validate() const {
   RequirePositive("search.map.spacing_m", spacing_m);
   RequirePositive("search.map.heading_step_deg", heading_step_deg);
-  RequirePositive("search.map.height_step_m", height_step_m);
+  RequirePositive("search.map.max_positions", max_positions);
   RequirePositive("search.map.tilts", tilts);
   RequirePositive("search.map.modes", modes);
   RequirePositive("search.map.mode_separation_m", mode_separation_m);

@@ -39,8 +39,8 @@ struct MapOptions {
   // Spacing of positions [m] and headings [deg].
   double spacing_m = 1.0;
   double heading_step_deg = 1.0;
-  // Of heights [m], where the height is free.
-  double height_step_m = 2.5;
+  // Most positions looked at; the spacing grows until the box has no more.
+  int max_positions = 600;
   // Hypotheses of pitch and roll from the picture's vertical lines, where they are free.
   int tilts = 2;
   // Modes refined, and the least distance between them.
@@ -68,7 +68,7 @@ struct SearchOptions {
 
 struct ConfidenceOptions {
   // Answers below this confidence are withheld.
-  double abstain_below = 0.0;
+  double abstain_below = 0.25;
   // Logistic calibration of the posterior mass: logit(confidence) = offset + slope * logit(mass).
   double offset = 0.0;
   double slope = 1.0;

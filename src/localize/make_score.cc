@@ -13,7 +13,8 @@ std::unique_ptr<Score> MakeScore(const ScoreOptions& options,
                                  const PictureEvidence& evidence,
                                  const cv::Mat& bgr,
                                  const PinholeCamera& camera,
-                                 const Scene& scene) {
+                                 const Scene& scene,
+                                 double tolerance_factor) {
   if (options.name == "line_energy") {
     return std::make_unique<LineEnergyScore>(
         evidence.segments(), evidence.camera(), options.line_energy);
@@ -27,7 +28,8 @@ std::unique_ptr<Score> MakeScore(const ScoreOptions& options,
     const Skyline skyline = ExtractSkyline(bgr, options.skyline);
     return std::make_unique<SkylineL1Score>(SkylineL1(skyline, camera, options.skyline_l1));
   }
-  return std::make_unique<EvidenceScore>(evidence, scene.model(), options.weights);
+  return std::make_unique<EvidenceScore>(evidence, scene.model(), options.weights,
+                                         tolerance_factor);
 }
 
 }  // namespace ridgeline

@@ -31,7 +31,44 @@ std::vector<double> HeadingOffsets(double half_range_deg, double step_deg) {
   return offsets;
 }
 
+// A coarse grid needs the large edges only [pieces in the sector].
+constexpr std::size_t kMaxPieces = 600;
+
+void KeepLargest(PositionView& view) {
+  std::vector<VisiblePiece>& pieces = view.visible.pieces;
+  if (pieces.size() <= kMaxPieces) return;
+  const Eigen::Vector3f eye = view.visible.position.cast<float>();
+  std::vector<std::pair<float, std::uint32_t>> sizes;
+  for (std::uint32_t i = 0; i < pieces.size(); ++i) {
+    const Eigen::Vector3f a = (pieces[i].a - eye).normalized();
+    const Eigen::Vector3f b = (pieces[i].b - eye).normalized();
+    sizes.emplace_back(-(a - b).squaredNorm(), i);
+  }
+  std::nth_element(sizes.begin(), sizes.begin() + kMaxPieces, sizes.end());
+  sizes.resize(kMaxPieces);
+  std::sort(sizes.begin(), sizes.end(),
+            [](const auto& x, const auto& y) { return x.second < y.second; });
+  std::vector<VisiblePiece> kept;
+  std::vector<EdgeKind> kinds;
+  for (const auto& [size, i] : sizes) {
+    kept.push_back(pieces[i]);
+    kinds.push_back(view.kinds[i]);
+  }
+  pieces = std::move(kept);
+  view.kinds = std::move(kinds);
+}
+
 }  // namespace
+
+double SpacingOf(const PoseSpaceOptions& ranges, const MapOptions& options) {
+  double spacing = options.spacing_m;
+  const auto positions = [&] {
+    return Offsets(ranges.east_m, spacing).size() * Offsets(ranges.north_m, spacing).size() *
+           Offsets(ranges.height_m, spacing).size();
+  };
+  while (positions() > static_cast<std::size_t>(options.max_positions)) spacing *= 1.1;
+  return spacing;
+}
 
 PoseSpace::Offset PoseVolume::OffsetOf(std::size_t index, const ViewAngles& center) const {
   const std::size_t tilt = index % tilts.size();
@@ -59,9 +96,10 @@ PoseVolume ComputeVolume(const Score& score,
                          int threads) {
   const PoseSpaceOptions& ranges = space.ranges();
   PoseVolume volume;
-  volume.east_m = Offsets(ranges.east_m, options.spacing_m);
-  volume.north_m = Offsets(ranges.north_m, options.spacing_m);
-  volume.height_m = Offsets(ranges.height_m, options.height_step_m);
+  const double spacing_m = SpacingOf(ranges, options);
+  volume.east_m = Offsets(ranges.east_m, spacing_m);
+  volume.north_m = Offsets(ranges.north_m, spacing_m);
+  volume.height_m = Offsets(ranges.height_m, spacing_m);
   volume.heading_deg = HeadingOffsets(ranges.heading_deg, options.heading_step_deg);
   volume.tilts.assign(tilts.begin(), tilts.end());
   const std::size_t positions =
@@ -91,7 +129,8 @@ PoseVolume ComputeVolume(const Score& score,
     if (!position) return;
     admissible[p] = 1;
     PictureEvidence::Workspace workspace;
-    const PositionView view = ViewFrom(scene, *position, range, score.parts());
+    PositionView view = ViewFrom(scene, *position, range, score.parts());
+    KeepLargest(view);
     for (std::size_t i = 0; i < rotations.size(); ++i) {
       volume.log_ratios[first + i] =
           static_cast<float>(score.LogRatio(view, {rotations[i], *position}, workspace));
@@ -111,6 +150,9 @@ std::vector<ScoredPose> FindModes(const PoseVolume& volume,
   std::stable_sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) {
     return volume.log_ratios[x] > volume.log_ratios[y];
   });
+  // Neighbours on a wide grid are one mode.
+  const double spacing_m = volume.east_m.size() > 1 ? volume.east_m[1] - volume.east_m[0] : 0.0;
+  const double separation_m = std::max(options.mode_separation_m, 1.2 * spacing_m);
   std::vector<ScoredPose> modes;
   for (const std::size_t index : order) {
     if (volume.log_ratios[index] == kNone || static_cast<int>(modes.size()) == options.modes) break;
@@ -119,7 +161,7 @@ std::vector<ScoredPose> FindModes(const PoseVolume& volume,
       const PoseSpace::Offset& m = mode.offset;
       const double distance = Eigen::Vector3d(
           o.east_m - m.east_m, o.north_m - m.north_m, o.height_m - m.height_m).norm();
-      return distance < options.mode_separation_m &&
+      return distance < separation_m &&
              std::abs(HeadingDifferenceDeg(o.heading_deg, m.heading_deg)) <
                  options.mode_separation_deg;
     });

@@ -37,6 +37,10 @@ struct PoseVolume {
   PoseSpace::Offset OffsetOf(std::size_t index, const ViewAngles& center) const;
 };
 
+// Spacing [m] of the grid in all free directions: the options', or wider so that there are no more
+// than max_positions.
+double SpacingOf(const PoseSpaceOptions& ranges, const MapOptions& options);
+
 // Visibility is computed once per position, in parallel over positions.
 PoseVolume ComputeVolume(const Score& score,
                          const Scene& scene,

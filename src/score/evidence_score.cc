@@ -9,8 +9,9 @@ namespace ridgeline {
 
 EvidenceScore::EvidenceScore(const PictureEvidence& evidence,
                              const CityModel& model,
-                             const std::vector<double>& weights)
-    : evidence_(evidence), model_(model) {
+                             const std::vector<double>& weights,
+                             double tolerance_factor)
+    : evidence_(evidence), model_(model), lines_(evidence.Lines(tolerance_factor)) {
   assert(weights.size() == weights_.size());
   std::copy(weights.begin(), weights.end(), weights_.begin());
 }
@@ -18,7 +19,7 @@ EvidenceScore::EvidenceScore(const PictureEvidence& evidence,
 double EvidenceScore::LogRatio(const PositionView& view,
                                const Pose& cam_from_local,
                                PictureEvidence::Workspace& workspace) const {
-  const CueVector cues = evidence_.Cues(view, model_, cam_from_local, workspace);
+  const CueVector cues = evidence_.Cues(view, model_, cam_from_local, lines_, workspace);
   if (workspace.segments.empty()) return -std::numeric_limits<double>::infinity();
   double sum = 0.0;
   for (int k = 0; k < kCues; ++k) sum += weights_[k] * cues[k];

@@ -12,10 +12,12 @@ namespace ridgeline {
 // the dev queries.
 class EvidenceScore final : public Score {
  public:
-  // `evidence` and `model` must outlive the score. One weight per cue, >= 0.
+  // `evidence` and `model` must outlive the score. One weight per cue, >= 0. `tolerance_factor` as
+  // in PictureEvidence::Lines.
   EvidenceScore(const PictureEvidence& evidence,
                 const CityModel& model,
-                const std::vector<double>& weights);
+                const std::vector<double>& weights,
+                double tolerance_factor);
 
   ViewParts parts() const override { return {true, weights_[kFacadeCue] > 0.0}; }
   double LogRatio(const PositionView& view,
@@ -25,6 +27,7 @@ class EvidenceScore final : public Score {
  private:
   const PictureEvidence& evidence_;
   const CityModel& model_;
+  LineLikelihood lines_;
   std::array<double, kCues> weights_{};
 };
 

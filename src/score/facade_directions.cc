@@ -50,6 +50,9 @@ void FacadeDirectionOptions::Validate() const {
   if (!(sigma_deg > 0.0)) {
     throw InputError("", "score.facades.sigma_deg", std::to_string(sigma_deg), "> 0");
   }
+  if (max_lines < 1) {
+    throw InputError("", "score.facades.max_lines", std::to_string(max_lines), ">= 1");
+  }
 }
 
 FacadeDirections::FacadeDirections(std::span<const LineSegment> segments,
@@ -66,6 +69,10 @@ FacadeDirections::FacadeDirections(std::span<const LineSegment> segments,
                       segment.Length() / static_cast<float>(camera.width),
                       density[BinOf(segment)]});
   }
+  const std::size_t kept = std::min<std::size_t>(lines_.size(), options.max_lines);
+  std::stable_sort(lines_.begin(), lines_.end(),
+                   [](const Line& x, const Line& y) { return x.weight > y.weight; });
+  lines_.resize(kept, lines_.empty() ? Line{} : lines_.front());
 }
 
 float FacadeDirections::LogRatio(const SurfacePanorama& surfaces,

@@ -18,10 +18,13 @@ struct FacadeDirectionOptions {
   double aligned_share = 0.6;
   // Standard deviation of their directions in the picture [deg].
   double sigma_deg = 2.0;
+  // Lines used, the longest first.
+  int max_lines = 1000;
 
   void Visit(OptionVisitor& v) {
     v.Field("aligned_share", aligned_share);
     v.Field("sigma_deg", sigma_deg);
+    v.Field("max_lines", max_lines);
   }
   void Validate() const;
 };

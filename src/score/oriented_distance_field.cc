@@ -6,6 +6,8 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "base/parallel.h"
+
 namespace ridgeline {
 namespace {
 
@@ -45,7 +47,8 @@ float OrientedDistanceField::DensityOfLevel(int level) {
 
 OrientedDistanceField::OrientedDistanceField(const std::vector<LineSegment>& segments,
                                              int width,
-                                             int height)
+                                             int height,
+                                             int threads)
     : width_(width),
       height_(height),
       cell_columns_((width + kDensityCellPx - 1) / kDensityCellPx),
@@ -57,7 +60,8 @@ OrientedDistanceField::OrientedDistanceField(const std::vector<LineSegment>& seg
     return cv::Point(static_cast<int>(std::lround((p.x() - 0.5f) * (1 << kShift))),
                      static_cast<int>(std::lround((p.y() - 0.5f) * (1 << kShift))));
   };
-  for (int direction = 0; direction < kDirections; ++direction) {
+  ParallelFor(kDirections, threads, [&](std::size_t index) {
+    const int direction = static_cast<int>(index);
     cv::Mat free(height, width, CV_8U, cv::Scalar(255));
     for (const LineSegment& segment : segments) {
       if (UndirectedDifferenceDeg(DirectionDeg(segment), BinCenterDeg(direction)) <=
@@ -73,10 +77,10 @@ OrientedDistanceField::OrientedDistanceField(const std::vector<LineSegment>& seg
                   distances_.data() + static_cast<std::size_t>(direction) * width * height);
     distance.convertTo(units, CV_8U, kUnitsPerPx);
 
+    cv::Mat free_share;
+    cv::resize(free, free_share, cv::Size(cell_columns_, cell_rows_), 0.0, 0.0, cv::INTER_AREA);
     cv::Mat density;
-    cv::Mat on_line = 1.0 - free / 255.0;
-    on_line.convertTo(on_line, CV_32F);
-    cv::resize(on_line, density, cv::Size(cell_columns_, cell_rows_), 0.0, 0.0, cv::INTER_AREA);
+    free_share.convertTo(density, CV_32F, -1.0 / 255.0, 1.0);
     cv::GaussianBlur(density, density, cv::Size(), kDensitySigmaPx / kDensityCellPx);
     for (int i = 0; i < cell_rows_ * cell_columns_; ++i) {
       const double rho = std::max<double>(density.ptr<float>()[i], kSmallestDensity);
@@ -84,7 +88,7 @@ OrientedDistanceField::OrientedDistanceField(const std::vector<LineSegment>& seg
       densities_[static_cast<std::size_t>(direction) * cell_rows_ * cell_columns_ + i] =
           static_cast<std::uint8_t>(std::clamp(std::lround(level), 0L, kDensityLevels - 1L));
     }
-  }
+  });
 }
 
 }  // namespace ridgeline

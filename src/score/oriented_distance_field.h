@@ -18,8 +18,11 @@ class OrientedDistanceField {
   static constexpr int kDensityLevels = 16;     // see DensityOfLevel
   static constexpr int kDensityCellPx = 8;
 
-  // Segments [px of an image width x height].
-  OrientedDistanceField(const std::vector<LineSegment>& segments, int width, int height);
+  // Segments [px of an image width x height]. The directions are computed in parallel.
+  OrientedDistanceField(const std::vector<LineSegment>& segments,
+                        int width,
+                        int height,
+                        int threads);
 
   int width() const { return width_; }
   int height() const { return height_; }

@@ -56,23 +56,46 @@ PictureEvidence::PictureEvidence(const cv::Mat& bgr,
                                  const PinholeCamera& camera,
                                  const LineDetectionOptions& lines,
                                  const EvidenceOptions& options,
+                                 int threads,
                                  const std::optional<std::vector<LineSegment>>& given_lines)
-    : camera_(WorkCamera(camera, options.work_size_px)),
-      segments_(WorkSegments(Reduced(bgr, camera_), camera_, camera, lines, given_lines)),
-      field_(segments_, camera_.width, camera_.height),
-      lines_(field_, camera_, options.lines),
+    : PictureEvidence(Reduced(bgr, WorkCamera(camera, options.work_size_px)),
+                      WorkCamera(camera, options.work_size_px),
+                      camera,
+                      lines,
+                      options,
+                      threads,
+                      given_lines) {}
+
+PictureEvidence::PictureEvidence(const cv::Mat& reduced,
+                                 const PinholeCamera& work,
+                                 const PinholeCamera& full,
+                                 const LineDetectionOptions& lines,
+                                 const EvidenceOptions& options,
+                                 int threads,
+                                 const std::optional<std::vector<LineSegment>>& given_lines)
+    : camera_(work),
+      segments_(WorkSegments(reduced, work, full, lines, given_lines)),
+      field_(segments_, work.width, work.height, threads),
+      line_options_(options.lines),
       facades_(segments_, camera_, options.facades),
-      sky_(SkyLogOdds(Reduced(bgr, camera_), SkyLikelihoodOptions{}), options.sky),
+      sky_(SkyLogOdds(reduced, SkyLikelihoodOptions{}), options.sky),
       sky_camera_(camera_.Scaled(static_cast<double>(sky_.columns()) / camera_.width)) {}
+
+LineLikelihood PictureEvidence::Lines(double tolerance_factor) const {
+  LineLikelihoodOptions options = line_options_;
+  options.sigma_model_m *= tolerance_factor;
+  return LineLikelihood(field_, camera_, options);
+}
 
 CueVector PictureEvidence::Cues(const PositionView& view,
                                 const CityModel& model,
                                 const Pose& cam_from_local,
+                                const LineLikelihood& lines,
                                 Workspace& workspace) const {
   const Eigen::Matrix3f rotation = cam_from_local.cam_from_world.toRotationMatrix().cast<float>();
   CueVector cues{};
   ProjectPieces(view.visible, camera_, cam_from_local, workspace.segments);
-  const auto edges = lines_.LogRatios(workspace.segments, view.kinds);
+  const auto edges = lines.LogRatios(workspace.segments, view.kinds);
   std::copy(edges.begin(), edges.end(), cues.begin());
   workspace.skyline_rows.resize(sky_.columns());
   SkylineRows(view.skyline, sky_camera_, rotation, workspace.skyline_rows);

@@ -63,6 +63,7 @@ class PictureEvidence {
                   const PinholeCamera& camera,
                   const LineDetectionOptions& lines,
                   const EvidenceOptions& options,
+                  int threads,
                   const std::optional<std::vector<LineSegment>>& given_lines = std::nullopt);
 
   PictureEvidence(const PictureEvidence&) = delete;
@@ -73,16 +74,29 @@ class PictureEvidence {
   const std::vector<LineSegment>& segments() const { return segments_; }
   const OrientedDistanceField& field() const { return field_; }
 
+  // The line likelihood with a wider (> 1) tolerance of the model's errors than the options', for
+  // poses on a coarse grid. Refers to this object.
+  LineLikelihood Lines(double tolerance_factor) const;
+
   CueVector Cues(const PositionView& view,
                  const CityModel& model,
                  const Pose& cam_from_local,
+                 const LineLikelihood& lines,
                  Workspace& workspace) const;
 
  private:
+  PictureEvidence(const cv::Mat& reduced,
+                  const PinholeCamera& work,
+                  const PinholeCamera& full,
+                  const LineDetectionOptions& lines,
+                  const EvidenceOptions& options,
+                  int threads,
+                  const std::optional<std::vector<LineSegment>>& given_lines);
+
   PinholeCamera camera_;
   std::vector<LineSegment> segments_;
   OrientedDistanceField field_;
-  LineLikelihood lines_;
+  LineLikelihoodOptions line_options_;
   FacadeDirections facades_;
   SkyTable sky_;
   PinholeCamera sky_camera_;
