@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/skyline.h"
 
+#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -125,6 +126,8 @@ SkylineFrameResult ResultOf(const SkylineFrame& frame, const SequenceFrame& know
   result.reason = frame.match.reason;
   result.before_px = frame.sensors_distance_px;
   result.after_px = frame.match.distance_after_px;
+  result.plain_before_px = frame.plain_before_px;
+  result.plain_after_px = frame.plain_after_px;
   result.start = known.start;
   if (frame.match.pose) result.pose = to_world(*frame.match.pose);
   result.times = frame.times;
@@ -172,12 +175,14 @@ std::vector<SkylineFrameResult> Track(SequenceInput& input,
   return results;
 }
 
-void Report(const SkylineSummary& s, const std::string& out, const Context& context) {
+void Report(const SkylineSummary& s, const std::string& out, bool matched, const Context& context) {
   if (context.json) {
     nlohmann::ordered_json json{{"frames", s.frames},
                                 {"matched", s.matched},
                                 {"l1_before_px", s.before_px},
                                 {"l1_after_px", s.after_px},
+                                {"plain_l1_before_px", s.plain_before_px},
+                                {"plain_l1_after_px", s.plain_after_px},
                                 {"extract_ms", s.times.extract_ms},
                                 {"clean_ms", s.times.clean_ms},
                                 {"match_ms", s.times.match_ms}};
@@ -190,13 +195,17 @@ void Report(const SkylineSummary& s, const std::string& out, const Context& cont
     return;
   }
   char line[256];
-  std::snprintf(line, sizeof line, "%zu of %zu frames matched, results in %s", s.matched, s.frames,
-                out.c_str());
-  context.Print(line);
+  if (matched) {
+    std::snprintf(line, sizeof line, "%zu of %zu frames matched", s.matched, s.frames);
+  } else {
+    std::snprintf(line, sizeof line, "Skylines of %zu frames extracted; no model to match", s.frames);
+  }
+  context.Print(line + (", results in " + out));
   if (s.matched == 0) return;
   std::snprintf(line, sizeof line,
-                "L1 %.1f px -> %.1f px (at 640 px); extraction %.1f ms, clean-up %.1f ms, match %.1f ms",
-                s.before_px, s.after_px, s.times.extract_ms, s.times.clean_ms, s.times.match_ms);
+                "L1 %.1f px -> %.1f px (at 640 px; all columns: %.1f -> %.1f); extraction %.1f ms, "
+                "clean-up %.1f ms, match %.1f ms",
+                s.before_px, s.after_px, s.plain_before_px, s.plain_after_px, s.times.extract_ms, s.times.clean_ms, s.times.match_ms);
   context.Print(line);
   if (s.with_truth == 0) return;
   std::snprintf(line, sizeof line, "heading error %.2f deg -> %.2f deg, tilt error %.2f deg",
@@ -227,7 +236,7 @@ int RunSkyline(SkylineArguments& arguments, const Context& context) {
   CommitFile(temporary, out);
 
   const SkylineSummary summary = Summarize(results);
-  Report(summary, arguments.out, context);
+  Report(summary, arguments.out, input->scene != nullptr, context);
   return input->scene && summary.matched == 0 ? kExitAbstained : kExitOk;
 }
 

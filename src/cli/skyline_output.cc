@@ -81,7 +81,7 @@ std::string SkylineFramesCsv(const std::vector<SkylineFrameResult>& frames) {
       "id,status,l1_before_px,l1_after_px,east_m,north_m,height_m,heading_deg,pitch_deg,roll_deg,"
       "start_east_m,start_north_m,start_height_m,start_heading_deg,start_pitch_deg,start_roll_deg,"
       "heading_error_deg,pitch_error_deg,roll_error_deg,position_error_m,extract_ms,clean_ms,"
-      "match_ms,reason\n";
+      "match_ms,plain_l1_before_px,plain_l1_after_px,reason\n";
   for (const SkylineFrameResult& f : frames) {
     Row row;
     row.Text(f.id).Text(f.status).Add(f.before_px, 2).Add(f.after_px, 2);
@@ -95,6 +95,7 @@ std::string SkylineFramesCsv(const std::vector<SkylineFrameResult>& frames) {
       for (int i = 0; i < 4; ++i) row.Add(std::nullopt, 0);
     }
     row.Add(f.times.extract_ms, 3).Add(f.times.clean_ms, 3).Add(f.times.match_ms, 3);
+    row.Add(f.plain_before_px, 2).Add(f.plain_after_px, 2);
     csv += row.Text(f.reason).Line();
   }
   return csv;
@@ -115,6 +116,8 @@ SkylineSummary Summarize(const std::vector<SkylineFrameResult>& frames) {
     ++s.matched;
     s.before_px += f.before_px.value_or(0.0);
     s.after_px += f.after_px.value_or(0.0);
+    s.plain_before_px += f.plain_before_px.value_or(0.0);
+    s.plain_after_px += f.plain_after_px.value_or(0.0);
     if (!f.truth || !f.start) continue;
     ++s.with_truth;
     const ViewAngles start = AngleErrors(*f.start, *f.truth);
@@ -127,7 +130,9 @@ SkylineSummary Summarize(const std::vector<SkylineFrameResult>& frames) {
     if (count > 0) sum /= static_cast<double>(count);
   };
   for (double* sum : {&s.times.extract_ms, &s.times.clean_ms, &s.times.match_ms}) mean(*sum, timed);
-  for (double* sum : {&s.before_px, &s.after_px}) mean(*sum, s.matched);
+  for (double* sum : {&s.before_px, &s.after_px, &s.plain_before_px, &s.plain_after_px}) {
+    mean(*sum, s.matched);
+  }
   for (double* sum : {&s.start_heading_deg, &s.heading_deg, &s.tilt_deg}) mean(*sum, s.with_truth);
   return s;
 }

@@ -20,6 +20,8 @@ struct SkylineFrameResult {
   std::string reason;
   std::optional<double> before_px;  // L1 [px at 640]
   std::optional<double> after_px;
+  std::optional<double> plain_before_px;  // the same over all columns, as in the paper
+  std::optional<double> plain_after_px;
   std::optional<Pose> start;  // world
   std::optional<Pose> pose;   // world; absent unless ok
   std::optional<Pose> truth;  // world
@@ -35,6 +37,8 @@ struct SkylineSummary {
   std::size_t matched = 0;
   double before_px = 0.0;
   double after_px = 0.0;
+  double plain_before_px = 0.0;
+  double plain_after_px = 0.0;
   SkylineFrameTimes times;         // over all frames with a picture
   std::size_t with_truth = 0;      // of the matched
   double start_heading_deg = 0.0;  // mean errors of the start and of the result, absolute

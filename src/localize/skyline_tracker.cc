@@ -104,6 +104,11 @@ SkylineFrame SkylineTracker::Track(const cv::Mat& bgr,
   correction_.reset();
   if (frame.match.pose) correction_ = Between(sensors, *frame.match.pose);
   frame.sensors_distance_px = DistanceAt(l1, source, sensors, options_.match);
+  SkylineL1Options plain_options = options_.l1;
+  plain_options.robust = false;
+  const SkylineL1 plain(frame.skyline, camera, plain_options);
+  frame.plain_before_px = DistanceAt(plain, source, sensors, options_.match);
+  frame.plain_after_px = DistanceAt(plain, source, frame.match.best, options_.match);
   return frame;
 }
 
