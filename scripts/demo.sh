@@ -13,7 +13,7 @@ if [ ! -f $town/dataset.json ]; then
   $ridgeline synth --out $town --seed 1 --queries 6 --tilted 1 --portrait 1 --drone 1
 fi
 echo
-echo "Localizing $town/images/street_002.jpg from a prior that is off by up to 10 m and 20 degrees:"
-$ridgeline localize --dataset $town/dataset.json --query street_002 --out build/demo/result
+echo "Localizing $town/images/street_005.jpg from a prior that is off by up to 10 m and 20 degrees:"
+$ridgeline localize --dataset $town/dataset.json --query street_005 --out build/demo/result
 echo
 echo "More: $ridgeline bench $town/dataset.json --out build/demo/bench"

@@ -118,7 +118,7 @@
     if ($('edges').checked) {
       const detail = read('run-' + run.index);
       const layers = detail.resultLayers.length > 0 ? detail.resultLayers : detail.priorLayers;
-      frame.append(Detail.edges(layers, photo));
+      frame.append(Detail.edges(layers, photo, 0.9));
     }
   };
   const runOfCard = new WeakMap();

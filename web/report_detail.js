@@ -18,7 +18,7 @@ const Detail = (() => {
   };
 
   // Lines in tenths of a pixel as an SVG over a photo.
-  const edges = (layers, photo) => {
+  const edges = (layers, photo, width = 2) => {
     const svg = document.createElementNS(SVG, 'svg');
     svg.setAttribute('viewBox', `0 0 ${photo.width} ${photo.height}`);
     svg.setAttribute('aria-hidden', 'true');
@@ -30,12 +30,12 @@ const Detail = (() => {
         }
         return path;
       }).join('');
-      for (const [stroke, width] of [['#000', 4], [layer.color, 2]]) {
+      for (const [stroke, thickness] of [['#000', 2 * width], [layer.color, width]]) {
         const path = document.createElementNS(SVG, 'path');
         path.setAttribute('d', d);
         path.setAttribute('fill', 'none');
         path.setAttribute('stroke', stroke);
-        path.setAttribute('stroke-width', width);
+        path.setAttribute('stroke-width', thickness);
         path.setAttribute('stroke-linecap', 'round');
         path.setAttribute('vector-effect', 'non-scaling-stroke');
         svg.append(path);

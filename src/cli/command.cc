@@ -69,7 +69,7 @@ fs::path ShippedConfigs() {
   for (fs::path folder = program.parent_path(); folder.has_relative_path();
        folder = folder.parent_path()) {
     for (const fs::path& configs : {folder / "share/ridgeline/configs", folder / "configs"}) {
-      if (fs::exists(configs / "default.json", error)) return configs;
+      if (fs::exists(configs / "paper.json", error)) return configs;
     }
   }
   return {};

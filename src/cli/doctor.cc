@@ -48,18 +48,23 @@ Check CheckProj() {
           "folder of proj.db"};
 }
 
+bool InProjFolders(const char* file) {
+  const PJ_INFO info = proj_info();
+  for (std::size_t i = 0; i < info.path_count; ++i) {
+    std::error_code error;
+    if (fs::exists(fs::path(info.paths[i]) / file, error)) return true;
+  }
+  return false;
+}
+
 // Grids are needed for old datums and for heights above the ellipsoid only.
 Check CheckGrids() {
   std::string missing;
-  for (const char* grid : {"de_adv_BETA2007.tif", "de_bkg_gcg2016.tif"}) {
-    if (std::string(proj_grid_info(grid).filename).empty()) {
-      missing += std::string(missing.empty() ? "" : " and ") + grid;
-    }
-  }
+  if (!InProjFolders("de_adv_BETA2007.tif")) missing += " de_adv_BETA2007.tif (German datum DHDN)";
+  if (!InProjFolders("de_bkg_gcg2016.tif")) missing += " de_bkg_gcg2016.tif (ellipsoid heights)";
   if (missing.empty()) return {"PROJ grids", Finding::kFine, "BETA2007 and GCG2016 are there"};
   return {"PROJ grids", Finding::kNote,
-          missing + " absent: models in old German datums come out some metres off. Needed for "
-                    "those only: projsync --file de_"};
+          "absent:" + missing + "; only to change from such systems: projsync --file de_"};
 }
 
 Check CheckDrivers() {
@@ -122,7 +127,8 @@ Check SelfTest(int threads) {
   char text[160];
   std::snprintf(text, sizeof text, "demo picture within %.2f m and %.2f deg, %.1f s in all",
                 record.error->translation_m, record.error->rotation_deg, seconds);
-  const bool right = record.error->translation_m < 2.0 && record.error->rotation_deg < 2.0;
+  // Wide: this is about a set-up that works, not about accuracy.
+  const bool right = record.error->translation_m < 5.0 && record.error->rotation_deg < 5.0;
   return {"self-test", right ? Finding::kFine : Finding::kBroken, text};
 }
 
