@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "base/atomic_file.h"
+#include "base/options.h"
+#include "localize/localizer_options.h"
+
+namespace ridgeline {
+namespace {
+
+const std::filesystem::path kConfigs = std::filesystem::path(RIDGELINE_SOURCE_DIR) / "configs";
+
+TEST(Configs, DefaultIsADumpOfTheDefaults) {
+  LocalizerOptions options;
+  EXPECT_EQ(ReadFile(kConfigs / "default.json"),
+            OptionsToJson([&](OptionVisitor& v) { options.Visit(v); }));
+}
+
+TEST(Configs, AllAreReadAndValid) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kConfigs)) {
+    LocalizerOptions options;
+    OptionsFromJson(ReadFile(entry.path()), entry.path().string(),
+                    [&](OptionVisitor& v) { options.Visit(v); });
+    EXPECT_NO_THROW(options.Validate()) << entry.path();
+    ++count;
+  }
+  EXPECT_GE(count, 4);
+}
+
+}  // namespace
+}  // namespace ridgeline

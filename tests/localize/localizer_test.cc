@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "localize/localizer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "eval/metrics.h"
+#include "eval/pose_json.h"
+#include "support/synthetic_city.h"
+
+namespace ridgeline {
+namespace {
+
+// A street of houses of different heights, seen along the street.
+CityModel Street() {
+  std::vector<testing::House> houses;
+  const double eaves[] = {6.0, 9.0, 5.0, 8.0, 11.0, 7.0, 6.5, 10.0};
+  for (int i = 0; i < 8; ++i) {
+    testing::House house;
+    const bool is_left = i % 2 == 0;
+    house.center = {is_left ? -11.0 : 12.0, 8.0 + 9.0 * i};
+    house.length_m = 9.0 + i % 3;
+    house.width_m = 8.0;
+    house.heading_deg = 0.0;
+    house.eaves_m = eaves[i];
+    house.ridge_m = eaves[i] + (i % 3 == 0 ? 0.0 : 3.0);
+    houses.push_back(house);
+  }
+  CityModel model = testing::MakeCity(houses);
+  model.crs.horizontal_epsg = 25832;
+  model.origin_in_world = {690000.0, 5335000.0, 500.0};
+  return model;
+}
+
+const PinholeCamera kCamera{640, 480, 500.0, 500.0, 320.0, 240.0};
+
+// The model in flat shades: sky white, ground dark, each face by its direction.
+cv::Mat Photo(const Scene& scene, const Pose& cam_from_local) {
+  const ViewBuffers buffers = scene.Render(kCamera, cam_from_local);
+  cv::Mat picture(kCamera.height, kCamera.width, CV_8UC3, cv::Scalar(245, 240, 235));
+  for (int y = 0; y < picture.rows; ++y) {
+    for (int x = 0; x < picture.cols; ++x) {
+      const std::uint32_t surface =
+          buffers.surfaces[static_cast<std::size_t>(y) * picture.cols + x];
+      cv::Vec3b& pixel = picture.at<cv::Vec3b>(y, x);
+      if (surface == kNoSurface) {
+        const Eigen::Vector3d ray = cam_from_local.cam_from_world.conjugate() *
+                                    kCamera.RayFromImage({x + 0.5, y + 0.5});
+        if (ray.z() < 0.0) pixel = {70, 70, 70};
+        continue;
+      }
+      const Surface& s = scene.model().surfaces[surface];
+      const double shade = 110.0 + 50.0 * s.normal.x() + 25.0 * s.normal.y() + 6.0 * (s.building % 5);
+      pixel = s.surface_class == SurfaceClass::kRoof
+                  ? cv::Vec3b(60, 80, static_cast<unsigned char>(shade + 30))
+                  : cv::Vec3b(static_cast<unsigned char>(shade - 20),
+                              static_cast<unsigned char>(shade),
+                              static_cast<unsigned char>(shade));
+    }
+  }
+  return picture;
+}
+
+class LocalizerOnAStreet : public ::testing::Test {
+ protected:
+  LocalizerOnAStreet() : model_(Street()), localizer_(model_, std::nullopt, Options()) {
+    truth_.cam_from_world = CamFromWorld(ViewAngles{4.0, 3.0, 0.0});
+    truth_.center_in_world = {0.5, -6.0, 1.7};
+    input_.picture = Photo(localizer_.scene(), truth_);
+    input_.camera = {"PINHOLE", 640, 480, {500.0, 500.0, 320.0, 240.0}};
+    truth_.center_in_world += model_.origin_in_world;
+    input_.prior.position_in_world = truth_.center_in_world.head<2>() + Eigen::Vector2d(3.3, -2.6);
+    input_.prior.height_in_world = truth_.center_in_world.z();
+    input_.prior.heading_deg = 350.0;
+    input_.prior.pitch_deg = 3.0;
+    input_.prior.roll_deg = 0.0;
+  }
+
+  static LocalizerOptions Options() {
+    LocalizerOptions options;
+    options.search.space.east_m = 5.0;
+    options.search.space.north_m = 5.0;
+    return options;
+  }
+
+  std::string ErrorOfInput(const LocalizationInput& input) const {
+    try {
+      localizer_.Localize(input, 1, 1);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "no error";
+  }
+
+  CityModel model_;
+  Localizer localizer_;
+  Pose truth_;
+  LocalizationInput input_;
+};
+
+TEST_F(LocalizerOnAStreet, FindsThePose) {
+  const Localization found = localizer_.Localize(input_, 1, 0);
+  ASSERT_EQ(found.status, LocalizationStatus::kOk) << found.reason;
+  const PoseError error = ErrorOf(*found.pose, truth_);
+  EXPECT_LT(error.translation_m, 0.5);
+  EXPECT_LT(error.rotation_deg, 0.5);
+  EXPECT_GT(found.confidence, 0.5);
+  // Higher than anything far away.
+  for (std::size_t i = 1; i < found.modes.size(); ++i) {
+    EXPECT_GE(found.modes[i].energy, found.energy);
+  }
+}
+
+TEST_F(LocalizerOnAStreet, IsTheSameOnAnyNumberOfThreads) {
+  const std::string one = PoseJson("photo", localizer_.Localize(input_, 1, 1), model_);
+  EXPECT_EQ(PoseJson("photo", localizer_.Localize(input_, 1, 8), model_), one);
+}
+
+TEST_F(LocalizerOnAStreet, MovesWithTheWorld) {
+  CityModel far = Street();
+  const Eigen::Vector3d shift(-400000.0, 5000000.0, 1000.0);
+  far.origin_in_world += shift;
+  const Localizer localizer(far, std::nullopt, Options());
+  LocalizationInput input = input_;
+  input.prior.position_in_world += shift.head<2>();
+  *input.prior.height_in_world += shift.z();
+  const Localization here = localizer_.Localize(input_, 1, 0);
+  const Localization there = localizer.Localize(input, 1, 0);
+  ASSERT_TRUE(here.pose && there.pose);
+  EXPECT_LT((there.pose->center_in_world - here.pose->center_in_world - shift).norm(), 1e-6);
+}
+
+TEST_F(LocalizerOnAStreet, APictureWithoutLinesIsAnAbstentionWithAReason) {
+  input_.picture = cv::Mat::zeros(480, 640, CV_8UC3);
+  const Localization found = localizer_.Localize(input_, 1, 0);
+  EXPECT_EQ(found.status, LocalizationStatus::kTooFewLines);
+  EXPECT_FALSE(found.pose.has_value());
+  EXPECT_FALSE(found.reason.empty());
+}
+
+TEST_F(LocalizerOnAStreet, LookingAwayFromTheModelIsAnAbstention) {
+  input_.prior.heading_deg = 180.0;
+  input_.prior.position_in_world.y() -= 60.0;
+  const Localization found = localizer_.Localize(input_, 1, 0);
+  EXPECT_EQ(found.status, LocalizationStatus::kNoVisibleModel);
+  EXPECT_FALSE(found.pose.has_value());
+}
+
+TEST_F(LocalizerOnAStreet, GreyDeepAndTransparentPicturesAreRead) {
+  cv::Mat deep;
+  input_.picture.convertTo(deep, CV_16U, 257.0);
+  input_.picture = deep;
+  EXPECT_TRUE(localizer_.Localize(input_, 1, 0).pose.has_value());
+}
+
+TEST_F(LocalizerOnAStreet, BadInputIsNamed) {
+  LocalizationInput input = input_;
+  input.camera.width = 641;
+  EXPECT_THAT(ErrorOfInput(input), ::testing::StartsWith("image: got 640 x 480, expected the camera's"));
+  input = input_;
+  input.prior.position_in_world.x() += 5000.0;
+  EXPECT_THAT(ErrorOfInput(input), ::testing::HasSubstr("expected a place in the model, between"));
+  input = input_;
+  input.prior.position_in_world.x() = NAN;
+  EXPECT_THAT(ErrorOfInput(input), ::testing::HasSubstr("not finite"));
+  input = input_;
+  input.prior.height_in_world.reset();
+  EXPECT_THAT(ErrorOfInput(input), ::testing::HasSubstr("no height and no DTM"));
+}
+
+TEST_F(LocalizerOnAStreet, EverySamplerAndScoreRuns) {
+  for (const char* score : {"line_energy", "skyline_l1", "line_energy_zbuffer"}) {
+    LocalizerOptions options = Options();
+    options.score.name = score;
+    options.search.method = "sampler";
+    options.search.evaluations = 20;
+    options.search.refine = false;
+    options.confidence.abstain_below = 0.0;
+    const Localizer localizer(model_, std::nullopt, options);
+    const Localization found = localizer.Localize(input_, 1, 0);
+    EXPECT_EQ(found.status, LocalizationStatus::kOk) << score << ": " << found.reason;
+    EXPECT_EQ(found.evaluations, 20u);
+    EXPECT_GE(found.energy, 0.0);
+    EXPECT_LE(found.energy, 1.0);
+  }
+}
+
+}  // namespace
+}  // namespace ridgeline
