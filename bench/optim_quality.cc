@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Best values of samplers on test functions, as CSV on stdout, for peers/optuna_compare.py:
-//   optim_quality SEEDS [SAMPLER...]
+//   optim_quality SEEDS [SAMPLER | SAMPLER:OPTION=VALUE]...
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -16,7 +16,11 @@ constexpr int kTrials = 200;
 
 void Run(const std::string& sampler, const TestFunction& function, std::uint64_t seed) {
   SamplerOptions options;
-  options.name = sampler;
+  const std::size_t colon = sampler.find(':');
+  options.name = sampler.substr(0, colon);
+  if (colon != std::string::npos) {
+    SetOption(sampler.substr(colon + 1), [&](OptionVisitor& v) { options.Visit(v); });
+  }
   MinimizeOptions run;
   run.budget = kTrials;
   const auto begin = std::chrono::steady_clock::now();
@@ -39,7 +43,7 @@ void Run(const std::string& sampler, const TestFunction& function, std::uint64_t
 int main(int argc, char** argv) {
   const int seeds = argc > 1 ? std::atoi(argv[1]) : 0;
   if (seeds <= 0) {
-    std::fprintf(stderr, "usage: optim_quality SEEDS [SAMPLER...]\n");
+    std::fprintf(stderr, "usage: optim_quality SEEDS [SAMPLER | SAMPLER:OPTION=VALUE]...\n");
     return 2;
   }
   std::vector<std::string> samplers(argv + 2, argv + argc);

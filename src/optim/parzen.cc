@@ -80,7 +80,7 @@ ParzenEstimator::ParzenEstimator(const Columns& points,
   for (std::size_t d = 0; d < points.size(); ++d) {
     dimensions_.push_back(MakeDimension(points[d], periodic[d], points.size(), options));
   }
-  Normalize(weights, options.prior_weight);
+  Normalize(weights, options);
 }
 
 ParzenEstimator::Dimension ParzenEstimator::MakeDimension(const std::vector<double>& points,
@@ -115,9 +115,9 @@ ParzenEstimator::Dimension ParzenEstimator::MakeDimension(const std::vector<doub
   return result;
 }
 
-void ParzenEstimator::Normalize(const std::vector<double>& weights, double prior_weight) {
+void ParzenEstimator::Normalize(const std::vector<double>& weights, const ParzenOptions& options) {
   coefficients_ = weights;
-  coefficients_.push_back(prior_weight);
+  coefficients_.push_back(options.prior_weight);
   const double sum = std::accumulate(coefficients_.begin(), coefficients_.end(), 0.0);
   for (double& weight : coefficients_) weight /= sum;
   cumulative_weights_.resize(coefficients_.size());
@@ -132,7 +132,7 @@ void ParzenEstimator::Normalize(const std::vector<double>& weights, double prior
       if (!dimension.periodic) {
         mass -= Tail(dimension.mu[k] * scale) + Tail((1.0 - dimension.mu[k]) * scale);
       }
-      coefficients_[k] *= inverse_root * scale / mass;
+      coefficients_[k] *= inverse_root * (options.divide_by_deviation ? scale : 1.0) / mass;
       has_images_ |= dimension.images[k] > 0;
     }
   }

@@ -25,14 +25,16 @@ struct ParzenOptions {
   double prior_weight = 1.0;
   bool magic_clip = true;
   bool consider_endpoints = false;
+  // Whether a kernel's density is divided by its deviations, as it must be for a density of
+  // integral 1. Optuna before 3.5 does not (its issue 5109), which favours wide kernels.
+  bool divide_by_deviation = true;
 };
 
 // Mixture of products of normal distributions on the unit cube, one component per point and a prior
 // component that covers the cube (centre 0.5, deviation 1). In linear dimensions the normals are
 // truncated to [0, 1]; in periodic ones they are wrapped around and the prior is uniform.
-// Immutable and thread-safe. Rules of weights, centres and deviations: Optuna 3.1.0. Its densities
-// lack the division by the deviation (optuna issue 5109, corrected in 3.5); ours are normalised.
-// The periodic kernel is ours.
+// Immutable and thread-safe. Rules of weights, centres and deviations: Optuna 3.1.0; the periodic
+// kernel is ours.
 class ParzenEstimator {
  public:
   // @param points  In [0, 1]; may be empty. In one dimension, sorted points are cheapest.
@@ -64,7 +66,7 @@ class ParzenEstimator {
                                  bool periodic,
                                  std::size_t dimensions,
                                  const ParzenOptions& options);
-  void Normalize(const std::vector<double>& weights, double prior_weight);
+  void Normalize(const std::vector<double>& weights, const ParzenOptions& options);
   static void AddLinear(const Dimension& dimension, double x, std::vector<double>& squares);
   static void AddPeriodic(const Dimension& dimension,
                           double x,

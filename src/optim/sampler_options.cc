@@ -102,6 +102,7 @@ void TpeOptions::Visit(OptionVisitor& v) {
   v.Field("prior_weight", prior_weight);
   v.Field("magic_clip", magic_clip);
   v.Field("consider_endpoints", consider_endpoints);
+  v.Field("divide_by_deviation", divide_by_deviation);
 }
 
 void GpOptions::Visit(OptionVisitor& v) {

@@ -23,6 +23,8 @@ struct TpeOptions {
   bool magic_clip = true;
   // Univariate rule: outermost kernels reach to the bounds.
   bool consider_endpoints = false;
+  // Kernels are divided by their deviation, as in Optuna since 3.5; false: as in Optuna 3.1.
+  bool divide_by_deviation = true;
 
   void Visit(OptionVisitor& v);
 };

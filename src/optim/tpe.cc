@@ -189,7 +189,8 @@ TpeStrategy::DensityPair TpeStrategy::MakePair(const std::vector<std::size_t>& o
       model_ == TpeModel::kMultivariate ? BandwidthRule::kScott : BandwidthRule::kNeighbours,
       options_.prior_weight,
       options_.magic_clip,
-      options_.consider_endpoints};
+      options_.consider_endpoints,
+      options_.divide_by_deviation};
   return {ParzenEstimator(points[0], weights[0], periodic, parzen),
           ParzenEstimator(points[1], weights[1], periodic, parzen)};
 }

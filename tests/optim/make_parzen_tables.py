@@ -18,7 +18,13 @@ from optuna.samplers._tpe.sampler import default_weights
 from scipy.stats import truncnorm
 
 _logpdf = _truncnorm.logpdf
-_truncnorm.logpdf = lambda x, a, b, loc=0, scale=1: _logpdf(x, a, b, loc, scale) - np.log(scale)
+
+
+def _corrected_logpdf(x, a, b, loc=0, scale=1):
+    return _logpdf(x, a, b, loc, scale) - np.log(scale)
+
+
+_truncnorm.logpdf = _corrected_logpdf
 
 
 def estimator(points, multivariate, prior_weight, magic_clip, endpoints):
@@ -50,7 +56,8 @@ def main():
     print("#pragma once\n\n#include <vector>\n\n// clang-format off")
     print("struct ParzenCase {\n  int dimensions;\n  bool multivariate;\n  double prior_weight;")
     print("  bool magic_clip;\n  bool endpoints;\n  std::vector<double> points;  // row by row")
-    print("  std::vector<double> queries;\n  std::vector<double> log_densities;\n};\n")
+    print("  std::vector<double> queries;\n  std::vector<double> log_densities;")
+    print("  std::vector<double> undivided;  // by the deviations, as Optuna 3.1.0 has it\n};\n")
     print("inline const std::vector<ParzenCase> kParzenCases = {")
     rng = np.random.RandomState(7)
     cases = [(0, 1, False, 1.0, True, False), (1, 1, False, 1.0, True, False),
@@ -67,9 +74,12 @@ def main():
         values = scipy_log_density(pe, names, queries)
         optunas = pe.log_pdf({m: queries[:, d] for d, m in enumerate(names)})
         assert np.allclose(values, optunas, rtol=0, atol=1e-9)
+        _truncnorm.logpdf = _logpdf
+        undivided = pe.log_pdf({m: queries[:, d] for d, m in enumerate(names)})
+        _truncnorm.logpdf = _corrected_logpdf
         flags = [str(b).lower() for b in (multivariate, clip, endpoints)]
         print(f"    {{{dims}, {flags[0]}, {prior}, {flags[1]}, {flags[2]},")
-        print(f"     {table(points)},\n     {table(queries)},\n     {table(values)}}},")
+        print(f"     {table(points)},\n     {table(queries)},\n     {table(values)},\n     {table(undivided)}}},")
     print("};\n// clang-format on")
 
 

@@ -19,7 +19,7 @@ Columns FromRows(const std::vector<double>& rows, int dimensions) {
   return columns;
 }
 
-ParzenEstimator Estimator(const ParzenCase& c) {
+ParzenEstimator Estimator(const ParzenCase& c, bool divide_by_deviation) {
   const Columns points = FromRows(c.points, c.dimensions);
   return ParzenEstimator(points,
                          TpeWeights(points[0].size()),
@@ -27,16 +27,20 @@ ParzenEstimator Estimator(const ParzenCase& c) {
                          {c.multivariate ? BandwidthRule::kScott : BandwidthRule::kNeighbours,
                           c.prior_weight,
                           c.magic_clip,
-                          c.endpoints});
+                          c.endpoints,
+                          divide_by_deviation});
 }
 
-TEST(ParzenEstimator, LogDensitiesEqualOptunas) {
+TEST(ParzenEstimator, LogDensitiesEqualSciPysAndOptunas) {
   for (const ParzenCase& c : kParzenCases) {
     SCOPED_TRACE(std::to_string(c.points.size()) + " numbers, " + std::to_string(c.dimensions));
-    const std::vector<double> found = Estimator(c).LogDensities(FromRows(c.queries, c.dimensions));
-    ASSERT_EQ(found.size(), c.log_densities.size());
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      EXPECT_NEAR(found[i], c.log_densities[i], 1e-9);
+    const Columns queries = FromRows(c.queries, c.dimensions);
+    const std::vector<double> divided = Estimator(c, true).LogDensities(queries);
+    const std::vector<double> undivided = Estimator(c, false).LogDensities(queries);
+    ASSERT_EQ(divided.size(), c.log_densities.size());
+    for (std::size_t i = 0; i < divided.size(); ++i) {
+      EXPECT_NEAR(divided[i], c.log_densities[i], 1e-9);
+      EXPECT_NEAR(undivided[i], c.undivided[i], 1e-9);
     }
   }
 }
