@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One frame of the skyline matcher, whole process (extraction, clean-up, match), on one thread, with
-// pictures of the paper's size and larger.
+// One frame of the skyline matcher, whole process (extraction, clean-up, match), on one thread,
+// with pictures of the paper's size and larger.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -74,13 +74,15 @@ BENCHMARK(ExtractPath)
 void ExtractCanny(benchmark::State& state) {
   cv::setNumThreads(1);
   const cv::Mat picture = Picture(static_cast<int>(state.range(0)));
-  for (auto _ : state) benchmark::DoNotOptimize(ExtractCannySkyline(picture, CannySkylineOptions{}));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(ExtractCannySkyline(picture, CannySkylineOptions{}));
 }
 BENCHMARK(ExtractCanny)->ArgName("width")->Arg(640)->Unit(benchmark::kMillisecond);
 
 void Distance(benchmark::State& state) {
   const World& world = TheWorld();
-  const SkylineL1 l1(ExtractSkyline(Picture(640), SkylineOptions{}), CameraOf(640), SkylineL1Options{});
+  const SkylineL1 l1(
+      ExtractSkyline(Picture(640), SkylineOptions{}), CameraOf(640), SkylineL1Options{});
   const auto directions =
       SkylineDirections(world.scene.SkylineFrom(world.truth.center_in_world, {0.35, 1.0}));
   const Eigen::Matrix3f rotation = world.truth.cam_from_world.toRotationMatrix().cast<float>();
@@ -109,9 +111,21 @@ void Frame(benchmark::State& state, const char* method) {
   state.counters["l1_after_px"] = after;
   state.counters["error_deg"] = error;
 }
-BENCHMARK_CAPTURE(Frame, 2d, "2d")->ArgName("width")->Arg(640)->Arg(1280)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(Frame, 2x2d, "2x2d")->ArgName("width")->Arg(640)->Arg(1280)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(Frame, 3d, "3d")->ArgName("width")->Arg(640)->Arg(1280)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Frame, 2d, "2d")
+    ->ArgName("width")
+    ->Arg(640)
+    ->Arg(1280)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Frame, 2x2d, "2x2d")
+    ->ArgName("width")
+    ->Arg(640)
+    ->Arg(1280)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Frame, 3d, "3d")
+    ->ArgName("width")
+    ->Arg(640)
+    ->Arg(1280)
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(Frame, 6dof, "6dof")->ArgName("width")->Arg(640)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -52,18 +52,15 @@ CityModel ReadBuilding(const AugmentArguments& arguments, const ViewInput& view)
   if (view.model.crs.horizontal_epsg != 0) {
     options.model_crs = "EPSG:" + std::to_string(view.model.crs.horizontal_epsg);
   }
-  const CityModel model =
-      ReadCity({arguments.building.begin(), arguments.building.end()}, options);
+  const CityModel model = ReadCity({arguments.building.begin(), arguments.building.end()}, options);
   const Eigen::Vector3d& origin = view.model.origin_in_world;
   if (arguments.place.empty()) {
     // It has world coordinates of its own.
     Eigen::AlignedBox3d box;
     for (const Eigen::Vector3d& v : model.vertices) box.extend(v);
     const Eigen::Vector3d base(box.center().x(), box.center().y(), box.min().z());
-    return PlacedModel(model,
-                       base + model.origin_in_world - origin,
-                       arguments.heading_deg,
-                       arguments.scale);
+    return PlacedModel(
+        model, base + model.origin_in_world - origin, arguments.heading_deg, arguments.scale);
   }
   const std::vector<double> place = ParsePlace(arguments.place);
   const Eigen::Vector2d xy = Eigen::Vector2d(place[0], place[1]) - origin.head<2>();
@@ -73,7 +70,8 @@ CityModel ReadBuilding(const AugmentArguments& arguments, const ViewInput& view)
   } else {
     const auto terrain = view.dtm ? view.dtm->HeightAt(xy) : std::nullopt;
     if (!terrain) {
-      throw InputError("--place", "", "no terrain there", "east,north,height, or a DTM that covers it");
+      throw InputError(
+          "--place", "", "no terrain there", "east,north,height, or a DTM that covers it");
     }
     height = *terrain;
   }
@@ -105,8 +103,11 @@ int RunAugment(const AugmentArguments& arguments, const Context& context) {
     return kExitOk;
   }
   char line[160];
-  std::snprintf(line, sizeof line, ": the building fills %.1f %% of it; %.0f %% of the building is hidden",
-                100.0 * result.visible_share, 100.0 * result.hidden_share);
+  std::snprintf(line,
+                sizeof line,
+                ": the building fills %.1f %% of it; %.0f %% of the building is hidden",
+                100.0 * result.visible_share,
+                100.0 * result.hidden_share);
   context.Print(arguments.out + line);
   return kExitOk;
 }
@@ -115,24 +116,27 @@ int RunAugment(const AugmentArguments& arguments, const Context& context) {
 
 void AddAugmentCommand(CLI::App& app, Context& context) {
   auto arguments = std::make_shared<AugmentArguments>();
-  CLI::App* command = AddCommand(
-      app,
-      context,
-      {"augment",
-       "Draws a planned building into a photo, hidden by what stands before it.",
-       "ridgeline augment --dataset town/dataset.json --query street_000 \\\n"
-       "    --building tower.obj --place 654100,5412080 --out augmented.jpg"},
-      [arguments](Context& c) { return RunAugment(*arguments, c); });
+  CLI::App* command =
+      AddCommand(app,
+                 context,
+                 {"augment",
+                  "Draws a planned building into a photo, hidden by what stands before it.",
+                  "ridgeline augment --dataset town/dataset.json --query street_000 \\\n"
+                  "    --building tower.obj --place 654100,5412080 --out augmented.jpg"},
+                 [arguments](Context& c) { return RunAugment(*arguments, c); });
   AddViewOptions(*command, arguments->view);
-  command->add_option("--building", arguments->building, "Model of the building (OBJ, CityGML, ...)")
+  command
+      ->add_option("--building", arguments->building, "Model of the building (OBJ, CityGML, ...)")
       ->required()
       ->type_name("PATH");
-  command->add_option("--place", arguments->place, "E,N or E,N,H of its base; else its own coordinates");
+  command->add_option(
+      "--place", arguments->place, "E,N or E,N,H of its base; else its own coordinates");
   command->add_option("--heading", arguments->heading_deg, "Turns it clockwise [deg]");
   command->add_option("--scale", arguments->scale, "Enlarges it");
   command->add_option("--light-azimuth", arguments->insert.light_azimuth_deg, "Light from [deg]")
       ->capture_default_str();
-  command->add_option("--light-elevation", arguments->insert.light_elevation_deg, "Its height [deg]")
+  command
+      ->add_option("--light-elevation", arguments->insert.light_elevation_deg, "Its height [deg]")
       ->capture_default_str();
   command->add_option("--opacity", arguments->insert.opacity, "Of the building, (0, 1]")
       ->capture_default_str();

@@ -17,7 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 bool IsPicture(const fs::path& path) {
-  static constexpr std::array kExtensions{".jpg", ".jpeg", ".png", ".tif", ".tiff", ".bmp", ".webp"};
+  static constexpr std::array kExtensions{
+      ".jpg", ".jpeg", ".png", ".tif", ".tiff", ".bmp", ".webp"};
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) {
     return static_cast<char>(std::tolower(c));
@@ -47,7 +48,8 @@ class Video final : public FrameSource {
  public:
   explicit Video(const fs::path& path) : capture_(path.string()) {
     if (!capture_.isOpened()) {
-      throw InputError(path.string(), "", "nothing that can be played", "a picture, folder or video");
+      throw InputError(
+          path.string(), "", "nothing that can be played", "a picture, folder or video");
     }
     count_ = static_cast<std::size_t>(std::max(0.0, capture_.get(cv::CAP_PROP_FRAME_COUNT)));
     if (count_ == 0) throw InputError(path.string(), "", "no frames", "a video with frames");
@@ -84,7 +86,8 @@ std::unique_ptr<FrameSource> OpenFrames(const fs::path& path) {
     for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
       if (IsPicture(entry.path())) files.push_back(entry.path());
     }
-    if (files.empty()) throw InputError(path.string(), "", "no pictures", "JPEG, PNG or TIFF files");
+    if (files.empty())
+      throw InputError(path.string(), "", "no pictures", "JPEG, PNG or TIFF files");
     std::sort(files.begin(), files.end());
   } else if (IsPicture(path)) {
     files.push_back(path);

@@ -23,8 +23,8 @@ class FrameSource {
   virtual cv::Mat Read(std::size_t index) = 0;
 };
 
-// A picture, a folder of pictures (ordered by name) or a video. Throws InputError if there is nothing
-// to read.
+// A picture, a folder of pictures (ordered by name) or a video. Throws InputError if there is
+// nothing to read.
 std::unique_ptr<FrameSource> OpenFrames(const std::filesystem::path& path);
 
 // The files given, whether they exist or not.

@@ -65,10 +65,10 @@ void StartFromPrior(const std::optional<PosePrior>& prior,
     frame.missing = height ? "no heading" : "no height";
     return;
   }
-  frame.start = Pose{CamFromWorld(ViewAngles{*prior->heading_deg,
-                                             prior->pitch_deg.value_or(0.0),
-                                             prior->roll_deg.value_or(0.0)}),
-                     {prior->position_in_world.x(), prior->position_in_world.y(), *height}};
+  frame.start =
+      Pose{CamFromWorld(ViewAngles{
+               *prior->heading_deg, prior->pitch_deg.value_or(0.0), prior->roll_deg.value_or(0.0)}),
+           {prior->position_in_world.x(), prior->position_in_world.y(), *height}};
 }
 
 // The reading of every frame, as indices; -1: none. By id; frames of a video by time, or by number
@@ -152,7 +152,8 @@ void ReadFromParts(const SequenceArguments& arguments, int threads, SequenceInpu
   }
   if (arguments.model.empty()) return;
   if (!camera) throw InputError("--camera", "", "nothing", "a camera file (JSON)");
-  if (arguments.sensors.empty()) throw InputError("--sensors", "", "nothing", "a sensor file (CSV)");
+  if (arguments.sensors.empty())
+    throw InputError("--sensors", "", "nothing", "a sensor file (CSV)");
   const std::vector<fs::path> model(arguments.model.begin(), arguments.model.end());
   std::optional<fs::path> dtm;
   if (!arguments.dtm.empty()) dtm = arguments.dtm;

@@ -9,9 +9,9 @@
 
 #include "camera/intrinsics.h"
 #include "camera/pose.h"
-#include "cli/frame_source.h"
 #include "city/city_model.h"
 #include "city/terrain.h"
+#include "cli/frame_source.h"
 #include "localize/sensors.h"
 #include "projection/scene.h"
 

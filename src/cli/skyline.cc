@@ -115,7 +115,8 @@ cv::Mat ReadPicture(SequenceInput& input, std::size_t index) {
   return UndistortImage(picture, *frame.camera);
 }
 
-SkylineFrameResult ResultOf(const SkylineFrame& frame, const SequenceFrame& known,
+SkylineFrameResult ResultOf(const SkylineFrame& frame,
+                            const SequenceFrame& known,
                             const Eigen::Vector3d& origin) {
   const auto to_world = [&](Pose pose) {
     pose.center_in_world += origin;
@@ -198,18 +199,30 @@ void Report(const SkylineSummary& s, const std::string& out, bool matched, const
   if (matched) {
     std::snprintf(line, sizeof line, "%zu of %zu frames matched", s.matched, s.frames);
   } else {
-    std::snprintf(line, sizeof line, "Skylines of %zu frames extracted; no model to match", s.frames);
+    std::snprintf(
+        line, sizeof line, "Skylines of %zu frames extracted; no model to match", s.frames);
   }
   context.Print(line + (", results in " + out));
   if (s.matched == 0) return;
-  std::snprintf(line, sizeof line,
+  std::snprintf(line,
+                sizeof line,
                 "L1 %.1f px -> %.1f px (at 640 px; all columns: %.1f -> %.1f); extraction %.1f ms, "
                 "clean-up %.1f ms, match %.1f ms",
-                s.before_px, s.after_px, s.plain_before_px, s.plain_after_px, s.times.extract_ms, s.times.clean_ms, s.times.match_ms);
+                s.before_px,
+                s.after_px,
+                s.plain_before_px,
+                s.plain_after_px,
+                s.times.extract_ms,
+                s.times.clean_ms,
+                s.times.match_ms);
   context.Print(line);
   if (s.with_truth == 0) return;
-  std::snprintf(line, sizeof line, "heading error %.2f deg -> %.2f deg, tilt error %.2f deg",
-                s.start_heading_deg, s.heading_deg, s.tilt_deg);
+  std::snprintf(line,
+                sizeof line,
+                "heading error %.2f deg -> %.2f deg, tilt error %.2f deg",
+                s.start_heading_deg,
+                s.heading_deg,
+                s.tilt_deg);
   context.Print(line);
 }
 

@@ -66,10 +66,14 @@ ViewAngles AngleErrors(const Pose& pose, const Pose& truth) {
 
 const char* NameOf(SkylineColumn column) {
   switch (column) {
-    case SkylineColumn::kSeen: return "seen";
-    case SkylineColumn::kAboveImage: return "above";
-    case SkylineColumn::kBelowImage: return "below";
-    case SkylineColumn::kUnknown: return "unknown";
+    case SkylineColumn::kSeen:
+      return "seen";
+    case SkylineColumn::kAboveImage:
+      return "above";
+    case SkylineColumn::kBelowImage:
+      return "below";
+    case SkylineColumn::kUnknown:
+      return "unknown";
   }
   return "";
 }

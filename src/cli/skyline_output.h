@@ -43,7 +43,7 @@ struct SkylineSummary {
   std::size_t with_truth = 0;      // of the matched
   double start_heading_deg = 0.0;  // mean errors of the start and of the result, absolute
   double heading_deg = 0.0;
-  double tilt_deg = 0.0;           // larger of pitch and roll
+  double tilt_deg = 0.0;  // larger of pitch and roll
 };
 SkylineSummary Summarize(const std::vector<SkylineFrameResult>& frames);
 

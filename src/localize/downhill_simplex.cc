@@ -49,8 +49,8 @@ class Round {
         Shrink();  // corners of a valley, as high on either side
       }
     }
-    const auto least = std::min_element(
-        corners_.begin(), corners_.end(), [](const Corner& a, const Corner& b) {
+    const auto least =
+        std::min_element(corners_.begin(), corners_.end(), [](const Corner& a, const Corner& b) {
           return a.value < b.value;
         });
     best_.point = least->point;

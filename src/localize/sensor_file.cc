@@ -16,7 +16,7 @@ namespace {
 // A number of a reading: its column, where it goes, and its range.
 struct NumberColumn {
   const char* name;
-  std::optional<double> SensorReading::* field;
+  std::optional<double> SensorReading::*field;
   double lower, upper;
 };
 
@@ -109,7 +109,10 @@ class Reader {
   }
 
  private:
-  double Number(const std::string& text, const std::string& field, double lower, double upper) const {
+  double Number(const std::string& text,
+                const std::string& field,
+                double lower,
+                double upper) const {
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
     if (*end != '\0') throw InputError(file_, field, '"' + text + '"', "a number");
@@ -142,7 +145,8 @@ std::vector<SensorReading> ReadSensors(const std::filesystem::path& path) {
       readings.push_back(reader.ReadRow(fields, number));
     }
   }
-  if (readings.empty()) throw InputError(path.string(), "", "no rows", "a header and a row per frame");
+  if (readings.empty())
+    throw InputError(path.string(), "", "no rows", "a header and a row per frame");
   return readings;
 }
 

@@ -28,16 +28,13 @@ void SensorOptions::Validate() const {
                heading_reference,
                {"grid", "true", "magnetic"},
                "grid, true or magnetic");
-  RequireOneOf("roll_sense",
-               roll_sense,
-               {"clockwise", "counterclockwise"},
-               "clockwise or counterclockwise");
+  RequireOneOf(
+      "roll_sense", roll_sense, {"clockwise", "counterclockwise"}, "clockwise or counterclockwise");
   RequireOneOf("held", held, {"portrait", "landscape"}, "portrait or landscape");
   RequireOneOf(
       "height_source", height_source, {"dtm", "gnss", "barometer"}, "dtm, gnss or barometer");
   if (!(std::abs(declination_deg) <= 180.0)) {
-    throw InputError(
-        "", "sensors.declination_deg", std::to_string(declination_deg), "-180 to 180");
+    throw InputError("", "sensors.declination_deg", std::to_string(declination_deg), "-180 to 180");
   }
   if (!(camera_height_m > 0.0)) {
     throw InputError("", "sensors.camera_height_m", std::to_string(camera_height_m), "more than 0");

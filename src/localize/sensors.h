@@ -17,14 +17,14 @@ namespace ridgeline {
 
 // What a phone's or vehicle's instruments say at one frame. Parts that are missing are absent.
 struct SensorReading {
-  std::string id;                        // of the frame
+  std::string id;  // of the frame
   std::optional<double> time_s;
-  std::optional<double> latitude_deg;    // WGS 84
+  std::optional<double> latitude_deg;  // WGS 84
   std::optional<double> longitude_deg;
-  std::optional<double> altitude_m;      // above sea level, in the model's height system
-  std::optional<double> compass_deg;     // heading of the optical axis; see heading_reference
-  std::optional<double> pitch_deg;       // as in ViewAngles
-  std::optional<double> roll_deg;        // see roll_sense
+  std::optional<double> altitude_m;   // above sea level, in the model's height system
+  std::optional<double> compass_deg;  // heading of the optical axis; see heading_reference
+  std::optional<double> pitch_deg;    // as in ViewAngles
+  std::optional<double> roll_deg;     // see roll_sense
   std::optional<Eigen::Vector3d> acceleration;  // device axes; at rest upward, any unit
   std::optional<double> pressure_hpa;
 };
@@ -38,8 +38,9 @@ struct SensorOptions {
   std::string roll_sense = "clockwise";
   // How the device is held: "portrait", or "landscape" (turned left, its top to the left).
   std::string held = "portrait";
-  // Where the height comes from: "dtm" (terrain and camera_height_m), "gnss", or "barometer" (height
-  // differences to the first reading with a pressure, which is taken to be at the terrain's height).
+  // Where the height comes from: "dtm" (terrain and camera_height_m), "gnss", or "barometer"
+  // (height differences to the first reading with a pressure, which is taken to be at the terrain's
+  // height).
   std::string height_source = "dtm";
   double camera_height_m = 1.6;
 
@@ -55,11 +56,11 @@ struct SensorOptions {
   void Validate() const;
 };
 
-// Reads a CSV with a header; '#' starts a comment line. Columns: id, time_s, lat_deg, lon_deg, alt_m,
-// compass_heading_deg, pitch_deg, roll_deg, acc_x, acc_y, acc_z, pressure_hpa; all but id are
-// optional, and empty fields are missing values. Throws InputError naming line and column for unknown
-// or repeated columns, rows of a wrong length, values that are not numbers or out of range, and two
-// rows with one id.
+// Reads a CSV with a header; '#' starts a comment line. Columns: id, time_s, lat_deg, lon_deg,
+// alt_m, compass_heading_deg, pitch_deg, roll_deg, acc_x, acc_y, acc_z, pressure_hpa; all but id
+// are optional, and empty fields are missing values. Throws InputError naming line and column for
+// unknown or repeated columns, rows of a wrong length, values that are not numbers or out of range,
+// and two rows with one id.
 std::vector<SensorReading> ReadSensors(const std::filesystem::path& path);
 
 // Pitch and roll [deg] from the direction of the acceleration at rest, by the formulas of Ayadi et
@@ -71,8 +72,8 @@ struct DeviceTilt {
 };
 DeviceTilt TiltFromUpward(const Eigen::Vector3d& upward_in_camera);
 
-// Upward in camera axes from the acceleration in device axes (x to the right and y to the top of the
-// screen, z out of it; the camera looks out of the back).
+// Upward in camera axes from the acceleration in device axes (x to the right and y to the top of
+// the screen, z out of it; the camera looks out of the back).
 Eigen::Vector3d UpwardInCamera(const Eigen::Vector3d& acceleration, const std::string& held);
 
 // Height difference [m] from one pressure to another, by the barometric formula of the standard
@@ -103,7 +104,7 @@ class SensorPriors {
 
   Crs crs_;
   SensorOptions options_;
-  std::optional<double> reference_hpa_;     // pressure and height of the first reading
+  std::optional<double> reference_hpa_;  // pressure and height of the first reading
   double reference_height_m_ = 0.0;
 };
 

@@ -61,7 +61,9 @@ double SensorCost(std::span<const double> o, const SkylineMatchOptions& options)
 }
 
 // Azimuths that the picture can show while it is matched: beyond them columns count as not reached.
-Sector SectorOf(const Pose& start, const PinholeCamera& camera, const SkylineMatchOptions& options) {
+Sector SectorOf(const Pose& start,
+                const PinholeCamera& camera,
+                const SkylineMatchOptions& options) {
   const Eigen::Quaterniond world_from_cam = start.cam_from_world.conjugate();
   const Eigen::Vector3d axis = world_from_cam * Eigen::Vector3d::UnitZ();
   Sector sector;
@@ -241,10 +243,14 @@ class Matcher {
 
 Pose Matched(Matcher& matcher, const Pose& start, SkylineMatch method) {
   switch (method) {
-    case SkylineMatch::k2d: return matcher.Match2d(start, 1.0);
-    case SkylineMatch::k2x2d: return matcher.Match2d(matcher.Match2d(start, 1.0), 0.0);
-    case SkylineMatch::k3d: return matcher.Match3d(false);
-    case SkylineMatch::k6dof: return matcher.Match3d(true);
+    case SkylineMatch::k2d:
+      return matcher.Match2d(start, 1.0);
+    case SkylineMatch::k2x2d:
+      return matcher.Match2d(matcher.Match2d(start, 1.0), 0.0);
+    case SkylineMatch::k3d:
+      return matcher.Match3d(false);
+    case SkylineMatch::k6dof:
+      return matcher.Match3d(true);
   }
   return start;
 }
@@ -256,8 +262,7 @@ bool AtLimit(const Pose& start, const Pose& pose, const SkylineMatchOptions& opt
   return std::abs(HeadingDifferenceDeg(a.heading_deg, b.heading_deg)) >
              kAtLimit * options.max_heading_deg ||
          std::abs(a.pitch_deg - b.pitch_deg) > kAtLimit * options.max_tilt_deg ||
-         std::abs(HeadingDifferenceDeg(a.roll_deg, b.roll_deg)) >
-             kAtLimit * options.max_tilt_deg ||
+         std::abs(HeadingDifferenceDeg(a.roll_deg, b.roll_deg)) > kAtLimit * options.max_tilt_deg ||
          shift.norm() > kAtLimit * options.max_shift_m;
 }
 
@@ -331,12 +336,18 @@ SkylineMatch SkylineMatchNamed(const std::string& name) {
 
 const char* NameOf(SkylineMatchStatus status) {
   switch (status) {
-    case SkylineMatchStatus::kOk: return "ok";
-    case SkylineMatchStatus::kUnusable: return "unusable";
-    case SkylineMatchStatus::kNoModel: return "no_model";
-    case SkylineMatchStatus::kFarFromStart: return "far_from_start";
-    case SkylineMatchStatus::kPoorMatch: return "poor_match";
-    case SkylineMatchStatus::kAmbiguous: return "ambiguous";
+    case SkylineMatchStatus::kOk:
+      return "ok";
+    case SkylineMatchStatus::kUnusable:
+      return "unusable";
+    case SkylineMatchStatus::kNoModel:
+      return "no_model";
+    case SkylineMatchStatus::kFarFromStart:
+      return "far_from_start";
+    case SkylineMatchStatus::kPoorMatch:
+      return "poor_match";
+    case SkylineMatchStatus::kAmbiguous:
+      return "ambiguous";
   }
   return "";
 }

@@ -87,9 +87,9 @@ const char* NameOf(SkylineMatchStatus status);
 
 struct SkylineMatchResult {
   SkylineMatchStatus status = SkylineMatchStatus::kUnusable;
-  std::string reason;           // in words, unless kOk
-  std::optional<Pose> pose;     // cam_from_local; absent unless kOk
-  Pose best;                    // the best pose found, believed or not; the start if none was sought
+  std::string reason;        // in words, unless kOk
+  std::optional<Pose> pose;  // cam_from_local; absent unless kOk
+  Pose best;                 // the best pose found, believed or not; the start if none was sought
   double distance_before_px = 0.0;  // [px at 640]
   double distance_after_px = 0.0;
   int evaluations = 0;

@@ -37,8 +37,8 @@ void SkylineDrawing::Rows(const Motion& motion, std::span<float> rows) const {
   std::fill(rows.begin(), rows.end(), std::numeric_limits<float>::quiet_NaN());
   const float c = static_cast<float>(std::cos(motion.turn_rad));
   const float s = static_cast<float>(std::sin(motion.turn_rad));
-  const Eigen::Vector2f to =
-      principal_point_ + Eigen::Vector2f(static_cast<float>(motion.x_px), static_cast<float>(motion.y_px));
+  const Eigen::Vector2f to = principal_point_ + Eigen::Vector2f(static_cast<float>(motion.x_px),
+                                                                static_cast<float>(motion.y_px));
   const auto moved = [&](const Eigen::Vector2f& p) {
     return Eigen::Vector2f(c * p.x() - s * p.y() + to.x(), s * p.x() + c * p.y() + to.y());
   };

@@ -45,8 +45,8 @@ struct SkylineFrameTimes {
 };
 
 struct SkylineFrame {
-  Skyline skyline;  // as extracted, in pixels of the picture
-  Pose start;       // cam_from_local
+  Skyline skyline;                   // as extracted, in pixels of the picture
+  Pose start;                        // cam_from_local
   double sensors_distance_px = 0.0;  // L1 at the pose by the sensors [px at 640]
   // The paper's L1, plainly over all columns, trees and all: at the pose by the sensors and at the
   // best one [px at 640].

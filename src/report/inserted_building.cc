@@ -16,9 +16,12 @@ constexpr int kSamples = 2;
 // Walls, roofs and the rest, BGR.
 cv::Vec3f ColorOf(SurfaceClass surface) {
   switch (surface) {
-    case SurfaceClass::kRoof: return {90.0f, 105.0f, 165.0f};
-    case SurfaceClass::kWall: return {205.0f, 218.0f, 228.0f};
-    default: return {190.0f, 195.0f, 200.0f};
+    case SurfaceClass::kRoof:
+      return {90.0f, 105.0f, 165.0f};
+    case SurfaceClass::kWall:
+      return {205.0f, 218.0f, 228.0f};
+    default:
+      return {190.0f, 195.0f, 200.0f};
   }
 }
 
@@ -59,8 +62,7 @@ InsertedPicture InsertBuilding(const cv::Mat& photo,
         const std::uint32_t surface =
             near.surfaces[static_cast<std::size_t>(fy) * near.depth.cols + fx];
         const float lit = std::max(0.0f, near.normals.at<cv::Vec3f>(fy, fx).dot(light));
-        color += (0.55f + 0.45f * lit) *
-                 ColorOf(building.model().surfaces[surface].surface_class);
+        color += (0.55f + 0.45f * lit) * ColorOf(building.model().surfaces[surface].surface_class);
       }
       if (hits == 0) continue;
       visible += static_cast<std::size_t>(hits);

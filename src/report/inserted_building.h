@@ -26,8 +26,8 @@ struct InsertedPicture {
   double hidden_share = 0.0;   // of the building's own outline, behind the city or the terrain
 };
 
-// Draws a building into a photo (8-bit BGR) at the photo's pose, hidden where the city or its terrain
-// is in front of it (Ayadi et al., section 7.1). Edges are smoothed by four rays per pixel.
+// Draws a building into a photo (8-bit BGR) at the photo's pose, hidden where the city or its
+// terrain is in front of it (Ayadi et al., section 7.1). Edges are smoothed by four rays per pixel.
 //
 // @param city  The surroundings, with terrain.
 // @param building  Scene of what is inserted, in the same local frame.

@@ -48,9 +48,12 @@ void SkylineL1Options::Validate() const {
 
 const char* ReasonOf(SkylineUse use) {
   switch (use) {
-    case SkylineUse::kUsable: return "usable";
-    case SkylineUse::kNoSky: return "no sky in the picture";
-    case SkylineUse::kTooFewKnown: return "the skyline is known in too few columns";
+    case SkylineUse::kUsable:
+      return "usable";
+    case SkylineUse::kNoSky:
+      return "no sky in the picture";
+    case SkylineUse::kTooFewKnown:
+      return "the skyline is known in too few columns";
   }
   return "";
 }
@@ -82,7 +85,8 @@ SkylineL1::SkylineL1(const Skyline& real,
   const Skyline clean =
       CleanSkyline(real, options.precision_px * real.image_width / kSkylineReferenceWidthPx);
   const double column_px = static_cast<double>(real.image_width) / camera_.width;
-  const float row_scale = static_cast<float>(camera_.height) / static_cast<float>(real.image_height);
+  const float row_scale =
+      static_cast<float>(camera_.height) / static_cast<float>(real.image_height);
   for (int c = 0; c < camera_.width; ++c) {
     const double x = (c + 0.5) * column_px;
     const std::size_t k =
@@ -109,7 +113,8 @@ double SkylineL1::DistanceOfRows(std::span<const float> rows) const {
     float deviation = max_deviation_;
     if (!std::isnan(rows[c])) {
       const float below = std::clamp(rows[c], 0.0f, bottom) - rows_[c];
-      deviation = below > 0.0f ? std::min(below, max_obstructed_) : std::min(-below, max_deviation_);
+      deviation =
+          below > 0.0f ? std::min(below, max_obstructed_) : std::min(-below, max_deviation_);
     }
     sum += weights_[c] * deviation;
   }

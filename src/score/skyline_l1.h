@@ -18,7 +18,8 @@ namespace ridgeline {
 inline constexpr double kSkylineReferenceWidthPx = 640.0;
 
 struct SkylineL1Options {
-  // Precision of the clean-up of the real skyline (Algorithm 1, Douglas-Peucker) [px at 640]; 0: none.
+  // Precision of the clean-up of the real skyline (Algorithm 1, Douglas-Peucker) [px at 640]; 0:
+  // none.
   double precision_px = 2.0;
   // L1 distance at which the energy is 1/2 [px at 640].
   double half_energy_px = 20.0;
@@ -51,8 +52,8 @@ struct SkylineL1Options {
 // What a real skyline is worth.
 enum class SkylineUse : std::uint8_t {
   kUsable,
-  kNoSky,         // no column shows sky: the skyline is above the picture, or hidden everywhere
-  kTooFewKnown,   // sky is seen, but in too few columns
+  kNoSky,        // no column shows sky: the skyline is above the picture, or hidden everywhere
+  kTooFewKnown,  // sky is seen, but in too few columns
 };
 
 // In words, for reports.
@@ -61,10 +62,10 @@ const char* ReasonOf(SkylineUse use);
 // Unit vectors to the points of a virtual skyline, by azimuth.
 std::vector<Eigen::Vector3f> SkylineDirections(const VisibleSet& visible);
 
-// Mean distance between the skyline of a picture and a virtual one (Ayadi et al., equation 1, divided
-// by the picture's width). Both are limited to the picture: where the real skyline is above it, a
-// virtual one above it agrees. Columns that the virtual skyline does not reach count the most.
-// Thread-safe; no allocation.
+// Mean distance between the skyline of a picture and a virtual one (Ayadi et al., equation 1,
+// divided by the picture's width). Both are limited to the picture: where the real skyline is above
+// it, a virtual one above it agrees. Columns that the virtual skyline does not reach count the
+// most. Thread-safe; no allocation.
 class SkylineL1 {
  public:
   // @param camera  Of the picture that `real` was found in.
@@ -91,7 +92,7 @@ class SkylineL1 {
   double half_energy_px_ = 0.0;
   float max_deviation_ = 0.0f;   // [px of camera_]
   float max_obstructed_ = 0.0f;  // [px of camera_]
-  float px_scale_ = 1.0f;       // [px at 640 per px of camera_]
+  float px_scale_ = 1.0f;        // [px at 640 per px of camera_]
   std::vector<float> rows_;
   std::vector<float> weights_;
   double weight_sum_ = 0.0;

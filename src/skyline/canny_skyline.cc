@@ -33,8 +33,8 @@ std::vector<int> UpperEnvelope(const cv::Mat& edges) {
   return rows;
 }
 
-// Columns of the cheapest chain of envelope pixels from a source left of the picture to a sink right
-// of it. Source and sink may be linked to any column, at the cost of the columns they bridge.
+// Columns of the cheapest chain of envelope pixels from a source left of the picture to a sink
+// right of it. Source and sink may be linked to any column, at the cost of the columns they bridge.
 std::vector<int> ShortestPath(const std::vector<int>& rows, int max_gap, double gap_cost) {
   const int columns = static_cast<int>(rows.size());
   const double never = std::numeric_limits<double>::infinity();
@@ -49,7 +49,8 @@ std::vector<int> ShortestPath(const std::vector<int>& rows, int max_gap, double 
     for (int p = std::max(0, x - 1 - max_gap); p < x; ++p) {
       const std::size_t k = static_cast<std::size_t>(p);
       if (rows[k] == kNoEdge) continue;
-      const double through = cost[k] + std::hypot(x - p, rows[i] - rows[k]) + gap_cost * (x - p - 1);
+      const double through =
+          cost[k] + std::hypot(x - p, rows[i] - rows[k]) + gap_cost * (x - p - 1);
       if (through >= cost[i]) continue;
       cost[i] = through;
       previous[i] = p;
@@ -75,7 +76,8 @@ void CannySkylineOptions::Validate() const {
   };
   require(work_width_px >= 16, "work_width_px", work_width_px, "at least 16");
   require(low_threshold >= 0.0, "low_threshold", low_threshold, "at least 0");
-  require(high_threshold >= low_threshold, "high_threshold", high_threshold, "at least the low one");
+  require(
+      high_threshold >= low_threshold, "high_threshold", high_threshold, "at least the low one");
   require(max_gap_px >= 0, "max_gap_px", max_gap_px, "at least 0");
   require(gap_cost >= 0.0, "gap_cost", gap_cost, "at least 0");
 }
@@ -94,7 +96,8 @@ Skyline ExtractCannySkyline(const cv::Mat& bgr, const CannySkylineOptions& optio
   skyline.column_step_px = static_cast<double>(bgr.cols) / work.cols;
   skyline.y_px.assign(rows.size(), 0.0f);
   skyline.confidence.assign(rows.size(), path.empty() ? 0.0f : 1.0f);
-  skyline.columns.assign(rows.size(), path.empty() ? SkylineColumn::kUnknown : SkylineColumn::kSeen);
+  skyline.columns.assign(rows.size(),
+                         path.empty() ? SkylineColumn::kUnknown : SkylineColumn::kSeen);
   if (path.empty()) return skyline;
   const double row_px = static_cast<double>(bgr.rows) / work.rows;
   std::size_t next = 0;  // first node of the path at or right of the column

@@ -10,7 +10,9 @@
 namespace ridgeline {
 namespace {
 
-double DistanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+double DistanceToSegment(const Eigen::Vector2d& p,
+                         const Eigen::Vector2d& a,
+                         const Eigen::Vector2d& b) {
   const Eigen::Vector2d d = b - a;
   const double length = d.squaredNorm();
   const double t = length > 0.0 ? std::clamp((p - a).dot(d) / length, 0.0, 1.0) : 0.0;

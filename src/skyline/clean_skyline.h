@@ -18,8 +18,8 @@ Polyline RemoveAberrantPoints(const Polyline& points, double precision_px);
 // `precision_px` from the line between its neighbours that are kept.
 Polyline SimplifyPolyline(const Polyline& points, double precision_px);
 
-// Both, over each run of seen columns: y_px of the columns then lies on the simplified polygon. Other
-// columns are left alone.
+// Both, over each run of seen columns: y_px of the columns then lies on the simplified polygon.
+// Other columns are left alone.
 Skyline CleanSkyline(const Skyline& skyline, double precision_px);
 
 }  // namespace ridgeline

@@ -63,8 +63,10 @@ ColumnPath CheapestColumnPath(const ColumnCosts& costs, int margin_tolerance) {
     const auto high_begin =
         total.begin() + std::min(static_cast<int>(states), state + margin_tolerance + 1);
     float second = std::numeric_limits<float>::max();
-    if (low_end != total.begin()) second = std::min(second, *std::min_element(total.begin(), low_end));
-    if (high_begin != total.end()) second = std::min(second, *std::min_element(high_begin, total.end()));
+    if (low_end != total.begin())
+      second = std::min(second, *std::min_element(total.begin(), low_end));
+    if (high_begin != total.end())
+      second = std::min(second, *std::min_element(high_begin, total.end()));
     path.states[c] = state;
     path.margins[c] = second - *best;
     if (c > 0) SpreadSteps(here, step(c - 1), after);

@@ -25,10 +25,10 @@ struct SkyLikelihoodOptions {
 };
 
 // Log odds of sky against not-sky of every pixel of the reduced picture (CV_32F; the scale is
-// result.cols / bgr.cols). The colours of the sky are this picture's own: they are learned from what
-// is connected to the upper border, smooth, and bright or blue, against everything else; so a blue,
-// overcast or overexposed sky are one case. A picture without sky gives negative values nearly
-// everywhere. bgr: CV_8UC3.
+// result.cols / bgr.cols). The colours of the sky are this picture's own: they are learned from
+// what is connected to the upper border, smooth, and bright or blue, against everything else; so a
+// blue, overcast or overexposed sky are one case. A picture without sky gives negative values
+// nearly everywhere. bgr: CV_8UC3.
 cv::Mat SkyLogOdds(const cv::Mat& bgr, const SkyLikelihoodOptions& options);
 
 }  // namespace ridgeline

@@ -40,8 +40,8 @@ struct Regions {
   }
 };
 
-// Takes a connected region from `labels`, starting in column x of the upper border. Gives the pixels
-// as row-major indices.
+// Takes a connected region from `labels`, starting in column x of the upper border. Gives the
+// pixels as row-major indices.
 void Fill(int x, std::uint8_t label, cv::Mat& labels, std::vector<int>& pixels) {
   const int columns = labels.cols;
   const int count = columns * labels.rows;
@@ -125,9 +125,9 @@ cv::Mat SkySeeds(const cv::Mat& log_odds, const SkyFeatures& features) {
   const ColourHistogram colours = ColoursOf(features, regions.labels, best.label);
   std::array<std::uint8_t, 256> meaning{};  // all kNotSkySeed
   for (const Region& r : regions.list) {
-    const bool sky = r.likeliness > best.likeliness - kAsLikely ||
-                     ColourOverlap(colours, ColoursOf(features, regions.labels, r.label)) >
-                         kSameColours;
+    const bool sky =
+        r.likeliness > best.likeliness - kAsLikely ||
+        ColourOverlap(colours, ColoursOf(features, regions.labels, r.label)) > kSameColours;
     if (sky) meaning[r.label] = kSkySeed;
   }
   cv::Mat seeds;

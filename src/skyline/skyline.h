@@ -20,10 +20,10 @@ enum class SkylineColumn : std::uint8_t {
 struct Skyline {
   int image_width = 0;
   int image_height = 0;
-  double column_step_px = 1.0;          // column i is at x = (i + 0.5) * column_step_px
-  std::vector<float> y_px;              // boundary between sky and the rest, in [0, height]
-  std::vector<float> confidence;        // of y_px, in [0, 1]; 0 for kUnknown
-  std::vector<SkylineColumn> columns;   // as many as y_px
+  double column_step_px = 1.0;         // column i is at x = (i + 0.5) * column_step_px
+  std::vector<float> y_px;             // boundary between sky and the rest, in [0, height]
+  std::vector<float> confidence;       // of y_px, in [0, 1]; 0 for kUnknown
+  std::vector<SkylineColumn> columns;  // as many as y_px
 
   std::size_t size() const { return y_px.size(); }
   double XOf(std::size_t column) const {

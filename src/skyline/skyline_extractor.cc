@@ -32,7 +32,8 @@ cv::Mat SmoothnessTable(double contrast, double weight) {
   return table;
 }
 
-// Largest step of a colour channel to the pixel `offset` columns/rows further (CV_8U, smaller by it).
+// Largest step of a colour channel to the pixel `offset` columns/rows further (CV_8U, smaller by
+// it).
 cv::Mat ColourStep(const cv::Mat& bgr, int dx, int dy) {
   const cv::Rect first(0, 0, bgr.cols - dx, bgr.rows - dy);
   const cv::Rect second(dx, dy, bgr.cols - dx, bgr.rows - dy);

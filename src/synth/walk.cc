@@ -115,19 +115,25 @@ void WalkOptions::Visit(OptionVisitor& v) {
 
 void WalkOptions::Validate() const {
   town.Validate();
-  Require(town.blocks_east <= 6 && town.blocks_north <= 6, "town.blocks_east",
-          std::max(town.blocks_east, town.blocks_north), "at most 6 blocks each way");
+  Require(town.blocks_east <= 6 && town.blocks_north <= 6,
+          "town.blocks_east",
+          std::max(town.blocks_east, town.blocks_north),
+          "at most 6 blocks each way");
   Require(frames >= 1 && frames <= 100000, "frames", frames, "1 to 100000");
   Require(frames_per_second > 0.0, "frames_per_second", frames_per_second, "more than 0");
   Require(width >= 64 && width <= 10000, "width", width, "64 to 10000 px");
   Require(height >= 64 && height <= 10000, "height", height, "64 to 10000 px");
-  Require(horizontal_fov_deg >= 20.0 && horizontal_fov_deg <= 120.0, "horizontal_fov_deg",
-          horizontal_fov_deg, "20 to 120");
+  Require(horizontal_fov_deg >= 20.0 && horizontal_fov_deg <= 120.0,
+          "horizontal_fov_deg",
+          horizontal_fov_deg,
+          "20 to 120");
   Require(jpeg_quality >= 1 && jpeg_quality <= 100, "jpeg_quality", jpeg_quality, "1 to 100");
   Require(speed_m_s >= 0.0, "speed_m_s", speed_m_s, "at least 0");
   Require(std::abs(pitch_deg) <= 45.0, "pitch_deg", pitch_deg, "-45 to 45");
   Require(std::abs(declination_deg) <= 180.0, "declination_deg", declination_deg, "-180 to 180");
-  Require(gnss_error_high_m >= gnss_error_low_m, "gnss_error_high_m", gnss_error_high_m,
+  Require(gnss_error_high_m >= gnss_error_low_m,
+          "gnss_error_high_m",
+          gnss_error_high_m,
           "at least gnss_error_low_m");
   const std::pair<const char*, double> not_negative[] = {
       {"overhang_m", overhang_m},
@@ -156,11 +162,13 @@ std::vector<Pose> WalkPoses(const Town& town, const WalkOptions& options) {
     // Half a second of the way smooths the corners.
     Place place = PlaceAt(way, t * options.speed_m_s);
     const Place ahead = PlaceAt(way, (t + 1.5) * options.speed_m_s);
-    const double turn = std::remainder(ahead.heading_rad - place.heading_rad, 2.0 * std::numbers::pi);
-    const double heading_deg = (place.heading_rad + 0.5 * turn) * kDeg + 25.0 * look.At(t) +
-                               1.5 * hand_heading.At(t);
+    const double turn =
+        std::remainder(ahead.heading_rad - place.heading_rad, 2.0 * std::numbers::pi);
+    const double heading_deg =
+        (place.heading_rad + 0.5 * turn) * kDeg + 25.0 * look.At(t) + 1.5 * hand_heading.At(t);
     const double bob = 0.03 * std::sin(2.0 * std::numbers::pi * kStepRate * t);
-    place.xy += 0.1 * side.At(t) * Vector2d(std::cos(place.heading_rad), -std::sin(place.heading_rad));
+    place.xy +=
+        0.1 * side.At(t) * Vector2d(std::cos(place.heading_rad), -std::sin(place.heading_rad));
     Pose pose;
     pose.center_in_world = {
         place.xy.x(), place.xy.y(), town.TerrainHeight(place.xy) + kEyeHeightM + bob};

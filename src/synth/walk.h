@@ -59,8 +59,8 @@ std::string WalkSensorsCsv(const Town& town,
                            const WalkOptions& options);
 
 // Writes the town and the walk as a dataset into the existing folder `folder`: city.gml, dtm.tif,
-// images/frame_*.jpg, sensors.csv, dataset.json with the true poses. Same files for the same options
-// on any number of threads.
+// images/frame_*.jpg, sensors.csv, dataset.json with the true poses. Same files for the same
+// options on any number of threads.
 TownDatasetSummary WriteWalkDataset(const WalkOptions& options,
                                     const std::filesystem::path& folder,
                                     int threads,

@@ -71,8 +71,8 @@ std::string WalkSensorsCsv(const Town& town,
   const Crs crs{town.epsg, 0};
   const double frame_s = 1.0 / options.frames_per_second;
   Random random(static_cast<std::uint64_t>(town.options.seed), kSensorStage);
-  Drift compass(20.0, frame_s, random), length(30.0, frame_s, random), direction(60.0, frame_s, random),
-      pitch(8.0, frame_s, random), roll(8.0, frame_s, random);
+  Drift compass(20.0, frame_s, random), length(30.0, frame_s, random),
+      direction(60.0, frame_s, random), pitch(8.0, frame_s, random), roll(8.0, frame_s, random);
   const double direction0 = random.Uniform(0.0, 2.0 * std::numbers::pi);
   std::string csv =
       "# a phone on a walk: WGS 84, magnetic compass (declination " +
@@ -88,8 +88,8 @@ std::string WalkSensorsCsv(const Town& town,
     const ViewAngles angles = ViewAnglesOf(pose.cam_from_world);
 
     const double share = 0.5 + 0.5 * std::tanh(length.Next());
-    const double error_m = options.gnss_error_low_m +
-                           share * (options.gnss_error_high_m - options.gnss_error_low_m);
+    const double error_m =
+        options.gnss_error_low_m + share * (options.gnss_error_high_m - options.gnss_error_low_m);
     const double towards = direction0 + direction.Next();
     const auto place = LatitudeLongitude(
         crs, world.head<2>() + error_m * Vector2d(std::sin(towards), std::cos(towards)));
@@ -99,8 +99,8 @@ std::string WalkSensorsCsv(const Town& town,
       jump_left = kJumpFrames;
       jump_m = random.Uniform(-options.altitude_jump_m, options.altitude_jump_m);
     }
-    const double altitude = world.z() + options.altitude_noise_m * random.Normal() +
-                            (jump_left > 0 ? jump_m : 0.0);
+    const double altitude =
+        world.z() + options.altitude_noise_m * random.Normal() + (jump_left > 0 ? jump_m : 0.0);
     jump_left = std::max(0, jump_left - 1);
 
     const double compass_deg = angles.heading_deg - ConvergenceDeg(crs, world.head<2>()) -

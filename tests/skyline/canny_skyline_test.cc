@@ -43,7 +43,8 @@ TEST(ExtractCannySkyline, LeavesOutAnOutlierThatWouldMakeTheWayLonger) {
 TEST(ExtractCannySkyline, NoEdgesIsUnknown) {
   const cv::Mat picture(100, 100, CV_8UC3, cv::Scalar(128, 128, 128));
   const Skyline skyline = ExtractCannySkyline(picture, CannySkylineOptions{});
-  EXPECT_EQ(std::count(skyline.columns.begin(), skyline.columns.end(), SkylineColumn::kUnknown), 100);
+  EXPECT_EQ(std::count(skyline.columns.begin(), skyline.columns.end(), SkylineColumn::kUnknown),
+            100);
 }
 
 }  // namespace

@@ -56,7 +56,8 @@ TEST(ColumnPath, IsTheCheapestOfAllPathsWithItsExactMargins) {
     const int tolerance = static_cast<int>(seed % 3);
     const ColumnPath path = CheapestColumnPath(costs, tolerance);
     double least = std::numeric_limits<double>::infinity();
-    ForEachPath(costs, [&](const std::vector<int>&, double cost) { least = std::min(least, cost); });
+    ForEachPath(costs,
+                [&](const std::vector<int>&, double cost) { least = std::min(least, cost); });
     EXPECT_NEAR(PathCost(costs, path.states), least, 1e-5) << "seed " << seed;
     for (std::size_t c = 0; c < path.states.size(); ++c) {
       double other = std::numeric_limits<double>::infinity();

@@ -13,14 +13,15 @@ double Rosenbrock(std::span<const double> x) {
 }
 
 TEST(MinimizeBySimplex, FindsTheMinimumOfRosenbrocksValley) {
-  const SimplexResult result =
-      MinimizeBySimplex(Rosenbrock, {-1.2, 1.0}, {{0.5, 0.5}, {0.1, 0.1}, {0.02, 0.02}}, {1e-12, 400});
+  const SimplexResult result = MinimizeBySimplex(
+      Rosenbrock, {-1.2, 1.0}, {{0.5, 0.5}, {0.1, 0.1}, {0.02, 0.02}}, {1e-12, 400});
   EXPECT_NEAR(result.point[0], 1.0, 1e-4);
   EXPECT_NEAR(result.point[1], 1.0, 1e-4);
 }
 
 TEST(MinimizeBySimplex, KeepsVariablesWithoutAStep) {
-  const SimplexResult result = MinimizeBySimplex(Rosenbrock, {0.5, 1.0}, {{0.0, 0.3}}, {1e-12, 200});
+  const SimplexResult result =
+      MinimizeBySimplex(Rosenbrock, {0.5, 1.0}, {{0.0, 0.3}}, {1e-12, 200});
   EXPECT_EQ(result.point[0], 0.5);
   EXPECT_NEAR(result.point[1], 0.25, 1e-4);
 }

@@ -2,10 +2,9 @@
 #include "localize/sensors.h"
 
 #include <gtest/gtest.h>
-
-#include <cmath>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "base/atomic_file.h"
@@ -61,7 +60,8 @@ TEST_F(SensorFile, ErrorsNameLineAndColumn) {
 }
 
 TEST(TiltFromUpward, IsThePitchAndRollOfThePose) {
-  for (const ViewAngles angles : {ViewAngles{10, 0, 0}, ViewAngles{120, 25, 8}, ViewAngles{300, -15, -40}}) {
+  for (const ViewAngles angles :
+       {ViewAngles{10, 0, 0}, ViewAngles{120, 25, 8}, ViewAngles{300, -15, -40}}) {
     const DeviceTilt tilt = TiltFromUpward(CamFromWorld(angles) * Eigen::Vector3d::UnitZ());
     EXPECT_NEAR(tilt.pitch_deg, angles.pitch_deg, 1e-9);
     EXPECT_NEAR(tilt.roll_deg, angles.roll_deg, 1e-9);
@@ -87,7 +87,8 @@ class Priors : public ::testing::Test {
  protected:
   std::optional<PosePrior> PriorOf(const SensorReading& reading, const SensorOptions& options) {
     SensorPriors priors({25832, 0}, options);
-    return priors.PriorOf(reading, [](const Eigen::Vector2d&) { return 500.0; }, missing_);
+    return priors.PriorOf(
+        reading, [](const Eigen::Vector2d&) { return 500.0; }, missing_);
   }
   static SensorReading Munich() {
     SensorReading r;

@@ -29,8 +29,7 @@ double LargestDeviation(const Skyline& skyline) {
 }
 
 double ShareOf(const Skyline& skyline, SkylineColumn column) {
-  return static_cast<double>(
-             std::count(skyline.columns.begin(), skyline.columns.end(), column)) /
+  return static_cast<double>(std::count(skyline.columns.begin(), skyline.columns.end(), column)) /
          static_cast<double>(skyline.size());
 }
 
@@ -127,7 +126,8 @@ TEST(ExtractSkyline, LargePicturesKeepSubPixelRows) {
 }
 
 TEST(ExtractSkyline, TinyAndOddPicturesAreSafe) {
-  for (const cv::Size size : {cv::Size(4, 4), cv::Size(17, 300), cv::Size(700, 5), cv::Size(641, 479)}) {
+  for (const cv::Size size :
+       {cv::Size(4, 4), cv::Size(17, 300), cv::Size(700, 5), cv::Size(641, 479)}) {
     const cv::Mat picture(size, CV_8UC3, testing::kBlue);
     const Skyline skyline = ExtractSkyline(picture, SkylineOptions{});
     EXPECT_EQ(skyline.image_height, size.height);

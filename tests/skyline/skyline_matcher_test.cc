@@ -56,8 +56,9 @@ class SkylineMatcher : public ::testing::Test {
 
   static Pose Turned(const Pose& pose, double heading, double pitch, double roll) {
     ViewAngles a = ViewAnglesOf(pose.cam_from_world);
-    return {CamFromWorld(ViewAngles{a.heading_deg + heading, a.pitch_deg + pitch, a.roll_deg + roll}),
-            pose.center_in_world};
+    return {
+        CamFromWorld(ViewAngles{a.heading_deg + heading, a.pitch_deg + pitch, a.roll_deg + roll}),
+        pose.center_in_world};
   }
 
   SkylineMatchResult Match(const Pose& truth, const Pose& start, const std::string& method) const {

@@ -37,6 +37,8 @@ inline cv::Mat StreetPicture(const cv::Scalar& sky, std::uint64_t seed = 1) {
   return picture;
 }
 
-inline double StreetSkyline(double x) { return x < 640.0 / 3 ? 200.0 : x < 1280.0 / 3 ? 120.0 : 160.0; }
+inline double StreetSkyline(double x) {
+  return x < 640.0 / 3 ? 200.0 : x < 1280.0 / 3 ? 120.0 : 160.0;
+}
 
 }  // namespace ridgeline::testing
