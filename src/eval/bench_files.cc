@@ -155,7 +155,10 @@ std::map<std::string, Pose> ReadPosesCsv(const std::filesystem::path& path) {
     std::vector<double> values;
     for (std::size_t i = 1; i < columns.size(); ++i) {
       double value = NAN;
-      if (columns[i] < fields.size()) std::istringstream(fields[columns[i]]) >> value;
+      if (columns[i] < fields.size()) {
+        std::istringstream text(fields[columns[i]]);
+        if (!(text >> value)) value = NAN;
+      }
       if (!std::isfinite(value)) {
         throw InputError(path.string(), "line " + std::to_string(number), "\"" + line + "\"",
                          "a number for " + wanted[i]);

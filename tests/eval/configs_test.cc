@@ -18,16 +18,12 @@ TEST(Configs, DefaultIsADumpOfTheDefaults) {
             OptionsToJson([&](OptionVisitor& v) { options.Visit(v); }));
 }
 
-TEST(Configs, AllAreReadAndValid) {
-  int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(kConfigs)) {
+TEST(Configs, ThoseOfTheLocalizerAreReadAndValid) {
+  for (const char* name : {"default.json", "drone.json", "paper.json", "skyline.json"}) {
     LocalizerOptions options;
-    OptionsFromJson(ReadFile(entry.path()), entry.path().string(),
-                    [&](OptionVisitor& v) { options.Visit(v); });
-    EXPECT_NO_THROW(options.Validate()) << entry.path();
-    ++count;
+    OptionsFromJson(ReadFile(kConfigs / name), name, [&](OptionVisitor& v) { options.Visit(v); });
+    EXPECT_NO_THROW(options.Validate()) << name;
   }
-  EXPECT_GE(count, 4);
 }
 
 }  // namespace
