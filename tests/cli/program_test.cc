@@ -6,12 +6,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <thread>
 
@@ -27,7 +30,7 @@ struct Outcome {
   std::string text;  // stdout, and stderr unless it was sent elsewhere
 };
 
-Outcome Run(const std::string& arguments) {
+Outcome Ridgeline(const std::string& arguments) {
   const std::string command = std::string(RIDGELINE_PROGRAM) + " " + arguments + " 2>&1";
   FILE* pipe = ::popen(command.c_str(), "r");
   Outcome outcome;
@@ -54,7 +57,7 @@ std::string Quoted(const fs::path& path) { return "'" + path.string() + "'"; }
 const fs::path& Town() {
   static const fs::path town = [] {
     const fs::path folder = Scratch("town") / "town";
-    Run("synth --quiet --queries 1 --tilted 0 --portrait 0 --drone 0 --size 320x240 "
+    Ridgeline("synth --quiet --queries 1 --tilted 0 --portrait 0 --drone 0 --size 320x240 "
         "--set town.blocks_east=2 --set town.blocks_north=2 --out " + Quoted(folder));
     return folder;
   }();
@@ -62,25 +65,25 @@ const fs::path& Town() {
 }
 
 TEST(Program, WithoutACommandSaysWhereHelpIs) {
-  const Outcome outcome = Run("");
+  const Outcome outcome = Ridgeline("");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.text, HasSubstr("ridgeline --help"));
 }
 
 TEST(Program, MistypedCommandNamesTheNearest) {
-  const Outcome outcome = Run("bensh");
+  const Outcome outcome = Ridgeline("bensh");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.text, HasSubstr("bench"));
 }
 
 TEST(Program, MistypedOptionPointsToTheCommandsHelp) {
-  const Outcome outcome = Run("synth --out x --sede 3");
+  const Outcome outcome = Ridgeline("synth --out x --sede 3");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.text, AllOf(HasSubstr("--sede"), HasSubstr("ridgeline synth --help")));
 }
 
 TEST(Program, HelpOfEveryCommandFitsAScreenAndHasAnExample) {
-  std::istringstream help(Run("--help").text);
+  std::istringstream help(Ridgeline("--help").text);
   std::string line;
   bool in_commands = false;
   int commands = 0;
@@ -92,7 +95,7 @@ TEST(Program, HelpOfEveryCommandFitsAScreenAndHasAnExample) {
     if (!in_commands || line.size() < 3 || line[2] == ' ') continue;
     if (line.empty() || line[0] != ' ') break;
     const std::string name = line.substr(2, line.find(' ', 2) - 2);
-    const Outcome outcome = Run(name + " --help");
+    const Outcome outcome = Ridgeline(name + " --help");
     EXPECT_EQ(outcome.exit_code, 0) << name;
     EXPECT_THAT(outcome.text, HasSubstr("Example:\n  ridgeline " + name)) << name;
     EXPECT_LE(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 50) << name;
@@ -102,30 +105,30 @@ TEST(Program, HelpOfEveryCommandFitsAScreenAndHasAnExample) {
 }
 
 TEST(Program, JsonIsJsonAndNothingElse) {
-  const auto json = nlohmann::json::parse(Run("version --json").text, nullptr, false);
+  const auto json = nlohmann::json::parse(Ridgeline("version --json").text, nullptr, false);
   ASSERT_FALSE(json.is_discarded());
   EXPECT_TRUE(json.contains("ridgeline"));
 }
 
 TEST(Program, WritesNoColoursIntoAPipe) {
-  EXPECT_THAT(Run("bensh").text, Not(HasSubstr("\033[")));
+  EXPECT_THAT(Ridgeline("bensh").text, Not(HasSubstr("\033[")));
 }
 
 TEST(Synth, MakesADatasetAndRefusesToOverwriteIt) {
   EXPECT_TRUE(fs::exists(Town() / "dataset.json"));
-  const Outcome again = Run("synth --out " + Quoted(Town()));
+  const Outcome again = Ridgeline("synth --out " + Quoted(Town()));
   EXPECT_EQ(again.exit_code, 2);
   EXPECT_THAT(again.text, AllOf(HasSubstr("exists"), HasSubstr("--overwrite")));
 }
 
 TEST(Synth, NamesTheNearestKey) {
-  const Outcome outcome = Run("synth --out x --set town.block=70");
+  const Outcome outcome = Ridgeline("synth --out x --set town.block=70");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.text, HasSubstr("town.block_m"));
 }
 
 TEST(Synth, RefusesSizesThatAreNone) {
-  EXPECT_THAT(Run("synth --out x --size 12by9").text, HasSubstr("WIDTHxHEIGHT"));
+  EXPECT_THAT(Ridgeline("synth --out x --size 12by9").text, HasSubstr("WIDTHxHEIGHT"));
 }
 
 TEST(Synth, LeavesNothingBehindWhenInterrupted) {
@@ -133,7 +136,7 @@ TEST(Synth, LeavesNothingBehindWhenInterrupted) {
   const std::string out = (folder / "town").string();
   const pid_t child = ::fork();
   if (child == 0) {
-    std::freopen("/dev/null", "w", stderr);
+    if (std::freopen("/dev/null", "w", stderr) == nullptr) ::_exit(98);
     ::execl(RIDGELINE_PROGRAM, "ridgeline", "synth", "--queries", "200", "--out", out.c_str(),
             static_cast<char*>(nullptr));
     ::_exit(99);
@@ -153,7 +156,7 @@ TEST(Synth, LeavesNothingBehindWhenInterrupted) {
 TEST(Render, WritesWhatWasAskedFor) {
   const fs::path folder = Scratch("render");
   const Outcome outcome =
-      Run("render --json --dataset " + Quoted(Town() / "dataset.json") + " --query street_000 --out " +
+      Ridgeline("render --json --dataset " + Quoted(Town() / "dataset.json") + " --query street_000 --out " +
           Quoted(folder / "edges.svg") + " --depth " + Quoted(folder / "depth.png"));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_TRUE(fs::exists(folder / "edges.svg"));
@@ -161,14 +164,14 @@ TEST(Render, WritesWhatWasAskedFor) {
 }
 
 TEST(Render, MistypedQueryNamesTheNearest) {
-  const Outcome outcome = Run("render --dataset " + Quoted(Town() / "dataset.json") +
+  const Outcome outcome = Ridgeline("render --dataset " + Quoted(Town() / "dataset.json") +
                               " --query stret_000 --out x.png");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.text, HasSubstr("street_000"));
 }
 
 TEST(Render, SaysWhatAPoseIs) {
-  const Outcome outcome = Run("render --dataset " + Quoted(Town() / "dataset.json") +
+  const Outcome outcome = Ridgeline("render --dataset " + Quoted(Town() / "dataset.json") +
                               " --query street_000 --pose 1,2,3 --out x.png");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.text, HasSubstr("east,north,height,heading,pitch,roll"));
@@ -176,7 +179,7 @@ TEST(Render, SaysWhatAPoseIs) {
 
 TEST(Completion, ShellsAcceptTheScripts) {
   const fs::path folder = Scratch("completion");
-  EXPECT_EQ(Run("completion bash > " + Quoted(folder / "bash")).exit_code, 0);
+  EXPECT_EQ(Ridgeline("completion bash > " + Quoted(folder / "bash")).exit_code, 0);
   EXPECT_EQ(std::system(("bash -n " + Quoted(folder / "bash")).c_str()), 0);
   const std::string ask = "bash -c 'source \"$0\"; COMP_WORDS=(ridgeline render --at \"\"); "
                           "COMP_CWORD=3; _ridgeline; echo ${COMPREPLY[@]}' " +
@@ -190,13 +193,13 @@ TEST(Completion, ShellsAcceptTheScripts) {
 
 TEST(Completion, WritesAManPagePerCommand) {
   const fs::path folder = Scratch("man");
-  EXPECT_EQ(Run("completion man --out " + Quoted(folder)).exit_code, 0);
+  EXPECT_EQ(Ridgeline("completion man --out " + Quoted(folder)).exit_code, 0);
   EXPECT_TRUE(fs::exists(folder / "ridgeline.1"));
   EXPECT_TRUE(fs::exists(folder / "ridgeline-synth.1"));
 }
 
 TEST(Doctor, ChecksTheSetUp) {
-  const Outcome outcome = Run("doctor --quick --json");
+  const Outcome outcome = Ridgeline("doctor --quick --json");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_FALSE(nlohmann::json::parse(outcome.text, nullptr, false).is_discarded());
 }
