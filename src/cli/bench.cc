@@ -34,17 +34,25 @@ std::string TableOf(const Summary& summary) {
   std::string text = "            recall   95 % interval   among the answered\n";
   char line[160];
   for (std::size_t t = 0; t < kRecallThresholds.size(); ++t) {
-    std::snprintf(line, sizeof(line), "%-10s %6.1f %%   %5.1f to %5.1f   %6.1f %%\n",
-                  kRecallThresholds[t].name, 100.0 * summary.recall[t],
-                  100.0 * summary.recall_ci95[t].lower, 100.0 * summary.recall_ci95[t].upper,
+    std::snprintf(line,
+                  sizeof(line),
+                  "%-10s %6.1f %%   %5.1f to %5.1f   %6.1f %%\n",
+                  kRecallThresholds[t].name,
+                  100.0 * summary.recall[t],
+                  100.0 * summary.recall_ci95[t].lower,
+                  100.0 * summary.recall_ci95[t].upper,
                   100.0 * summary.recall_answered[t]);
     text += line;
   }
-  std::snprintf(line, sizeof(line),
+  std::snprintf(line,
+                sizeof(line),
                 "median error %.2f m, %.2f deg; abstained %.1f %%; %.2f s per query (median), %.0f "
                 "poses/s",
-                summary.translation_m.median, summary.rotation_deg.median,
-                100.0 * summary.abstained, summary.seconds_median, summary.evaluations_per_second);
+                summary.translation_m.median,
+                summary.rotation_deg.median,
+                100.0 * summary.abstained,
+                summary.seconds_median,
+                summary.evaluations_per_second);
   return text + line;
 }
 
@@ -91,7 +99,9 @@ std::vector<RunRecord> ScorePoses(const Dataset& dataset, const fs::path& path) 
     records.push_back(record);
   }
   if (!poses.empty()) {
-    throw InputError(path.string(), "query", "\"" + poses.begin()->first + "\"",
+    throw InputError(path.string(),
+                     "query",
+                     "\"" + poses.begin()->first + "\"",
                      "an id of " + dataset.file.string());
   }
   return records;
@@ -134,8 +144,11 @@ int RunBenchCommand(const BenchArguments& arguments, const Context& context) {
   const RunOutputs outputs = OutputsOf(arguments);
   CheckRunOutputs(outputs, true);
   if (!arguments.score_only.empty()) {
-    WriteResults(arguments, dataset, ScorePoses(dataset, arguments.score_only),
-                 Eigen::Vector3d::Zero(), context);
+    WriteResults(arguments,
+                 dataset,
+                 ScorePoses(dataset, arguments.score_only),
+                 Eigen::Vector3d::Zero(),
+                 context);
     return kExitOk;
   }
 
@@ -181,15 +194,17 @@ void AddBenchCommand(CLI::App& app, Context& context) {
                   "ridgeline bench town/dataset.json --perturb 10,10,0,20 --seeds 5 --out results"},
                  [arguments](Context& c) { return RunBenchCommand(*arguments, c); });
   command->add_option("dataset", arguments->dataset, "dataset.json")->required();
-  command->add_option("--out", arguments->out,
-                      "Folder for results.csv, summary.json, poses.txt and report.html");
-  command->add_option("--perturb", arguments->perturb,
+  command->add_option(
+      "--out", arguments->out, "Folder for results.csv, summary.json, poses.txt and report.html");
+  command->add_option("--perturb",
+                      arguments->perturb,
                       "Draw priors around the truth: east,north,height,heading[,pitch,roll] "
                       "half-ranges in m and deg; also the ranges of the search");
   command->add_option("--seed", arguments->seed, "First seed (default 1)");
   command->add_option("--seeds", arguments->seeds, "Number of seeds (default 1)")
       ->check(CLI::Range(1, 1000));
-  command->add_option("--score-only", arguments->score_only,
+  command->add_option("--score-only",
+                      arguments->score_only,
                       "Score another system's poses: CSV query,e,n,h,qw,qx,qy,qz");
   AddRunOutputOptions(*command, arguments->outputs, true);
   AddConfigOptions(*command, arguments->config);

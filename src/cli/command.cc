@@ -25,10 +25,11 @@ fs::path ResolveConfig(const std::string& config) {
     }
   }
   const std::string nearest = NearestName(config, names);
-  throw InputError("--config",
-                   "",
-                   "\"" + config + "\"",
-                   nearest.empty() ? "an existing file" : "an existing file, or \"" + nearest + "\"");
+  throw InputError(
+      "--config",
+      "",
+      "\"" + config + "\"",
+      nearest.empty() ? "an existing file" : "an existing file, or \"" + nearest + "\"");
 }
 
 }  // namespace
@@ -47,7 +48,7 @@ CLI::App* AddCommand(CLI::App& app,
 
 void AddConfigOptions(CLI::App& command, ConfigArguments& arguments) {
   command.add_option(
-      "--config", arguments.config, "JSON file, or \"paper\" / \"default\" (see configs/)");
+      "--config", arguments.config, "JSON file, or the name of a shipped one, e.g. paper");
   command
       .add_option(
           "--set", arguments.set, "Override one key, e.g. --set search.east_m=20; may be repeated")

@@ -19,8 +19,8 @@ struct CommandText {
   std::string example;  // whole lines to type, separated by newlines
 };
 
-// Adds a command to the program; `run` gets the context and returns an exit code. It is called after
-// all arguments were parsed, so `arguments` kept in it by shared pointer are complete.
+// Adds a command to the program; `run` gets the context and returns an exit code. It is called
+// after all arguments were parsed, so `arguments` kept in it by shared pointer are complete.
 CLI::App* AddCommand(CLI::App& app,
                      Context& context,
                      const CommandText& text,

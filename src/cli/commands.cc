@@ -36,8 +36,8 @@ constexpr AddFunction kCommands[] = {
 }  // namespace
 
 std::unique_ptr<CLI::App> MakeProgram(Context& context) {
-  auto app = std::make_unique<CLI::App>(
-      "Finds the 6-DoF pose of a photo from a city model alone.", "ridgeline");
+  auto app = std::make_unique<CLI::App>("Finds the 6-DoF pose of a photo from a city model alone.",
+                                        "ridgeline");
   app->require_subcommand(1);
   app->set_help_all_flag("--help-all", "Help of every command");
   app->set_version_flag("--version", VersionText());

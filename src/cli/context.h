@@ -16,9 +16,9 @@ inline constexpr int kExitInterrupted = 130;
 
 // What every command is given: the global options and the way to the terminal.
 struct Context {
-  bool quiet = false;  // results and errors only
-  bool json = false;   // results as one JSON document on stdout
-  int threads = 0;     // 0: all
+  bool quiet = false;      // results and errors only
+  bool json = false;       // results as one JSON document on stdout
+  int threads = 0;         // 0: all
   bool color_out = false;  // stdout is a terminal that takes colours
   bool color_err = false;  // the same for stderr
   bool terminal_err = false;

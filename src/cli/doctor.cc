@@ -43,7 +43,8 @@ Check CheckProj() {
   const bool known = crs != nullptr;
   proj_destroy(crs);
   if (known) return {"PROJ data", Finding::kFine, database == nullptr ? "built in" : database};
-  return {"PROJ data", Finding::kBroken,
+  return {"PROJ data",
+          Finding::kBroken,
           "EPSG:25832 is not known; install the Debian package proj-data, or set PROJ_DATA to the "
           "folder of proj.db"};
 }
@@ -63,7 +64,8 @@ Check CheckGrids() {
   if (!InProjFolders("de_adv_BETA2007.tif")) missing += " de_adv_BETA2007.tif (German datum DHDN)";
   if (!InProjFolders("de_bkg_gcg2016.tif")) missing += " de_bkg_gcg2016.tif (ellipsoid heights)";
   if (missing.empty()) return {"PROJ grids", Finding::kFine, "BETA2007 and GCG2016 are there"};
-  return {"PROJ grids", Finding::kNote,
+  return {"PROJ grids",
+          Finding::kNote,
           "absent:" + missing + "; only to change from such systems: projsync --file de_"};
 }
 
@@ -76,25 +78,29 @@ Check CheckDrivers() {
     }
   }
   if (missing.empty()) return {"GDAL drivers", Finding::kFine, "GTiff, VRT, GPKG, GeoJSON, KML"};
-  return {"GDAL drivers", Finding::kBroken, "missing:" + missing + "; install libgdal-dev of Debian"};
+  return {
+      "GDAL drivers", Finding::kBroken, "missing:" + missing + "; install libgdal-dev of Debian"};
 }
 
 Check CheckThreads(int threads) {
   const unsigned hardware = std::thread::hardware_concurrency();
-  return {"threads", Finding::kFine,
+  return {"threads",
+          Finding::kFine,
           std::to_string(ResolveThreads(threads)) + " used of " + std::to_string(hardware)};
 }
 
 Check CheckPlots() {
   if (ReportHasPlots()) return {"report plots", Finding::kFine, "embedded"};
-  return {"report plots", Finding::kNote,
+  return {"report plots",
+          Finding::kNote,
           "not in this build; install nodejs and npm, configure and build again"};
 }
 
 Check CheckConfigs() {
   const fs::path configs = ShippedConfigs();
   if (!configs.empty()) return {"configurations", Finding::kFine, configs.string()};
-  return {"configurations", Finding::kNote,
+  return {"configurations",
+          Finding::kNote,
           "no configs folder near the program: --config needs a file, not a name"};
 }
 
@@ -125,8 +131,12 @@ Check SelfTest(int threads) {
     return {"self-test", Finding::kBroken, "no pose for the demo picture: " + record.reason};
   }
   char text[160];
-  std::snprintf(text, sizeof text, "demo picture within %.2f m and %.2f deg, %.1f s in all",
-                record.error->translation_m, record.error->rotation_deg, seconds);
+  std::snprintf(text,
+                sizeof text,
+                "demo picture within %.2f m and %.2f deg, %.1f s in all",
+                record.error->translation_m,
+                record.error->rotation_deg,
+                seconds);
   // Wide: this is about a set-up that works, not about accuracy.
   const bool right = record.error->translation_m < 5.0 && record.error->rotation_deg < 5.0;
   return {"self-test", right ? Finding::kFine : Finding::kBroken, text};
@@ -149,8 +159,12 @@ const char* NameOf(Finding finding) {
 }
 
 int RunDoctor(const Context& context, bool quick) {
-  std::vector<Check> checks = {{"program", Finding::kFine, VersionText()}, CheckProj(), CheckGrids(),
-                               CheckDrivers(), CheckThreads(context.threads), CheckConfigs(),
+  std::vector<Check> checks = {{"program", Finding::kFine, VersionText()},
+                               CheckProj(),
+                               CheckGrids(),
+                               CheckDrivers(),
+                               CheckThreads(context.threads),
+                               CheckConfigs(),
                                CheckPlots()};
   if (!quick) {
     context.Note("Self-test on a small town ...");
@@ -161,7 +175,8 @@ int RunDoctor(const Context& context, bool quick) {
   for (const Check& check : checks) {
     broken = broken || check.finding == Finding::kBroken;
     if (context.json) {
-      json.push_back({{"check", check.name}, {"finding", NameOf(check.finding)}, {"text", check.text}});
+      json.push_back(
+          {{"check", check.name}, {"finding", NameOf(check.finding)}, {"text", check.text}});
       continue;
     }
     char name[32];
@@ -176,12 +191,11 @@ int RunDoctor(const Context& context, bool quick) {
 
 void AddDoctorCommand(CLI::App& app, Context& context) {
   auto quick = std::make_shared<bool>(false);
-  CLI::App* command = AddCommand(app,
-                                 context,
-                                 {"doctor",
-                                  "Checks the set-up, with a self-test, and says what to do.",
-                                  "ridgeline doctor"},
-                                 [quick](Context& c) { return RunDoctor(c, *quick); });
+  CLI::App* command = AddCommand(
+      app,
+      context,
+      {"doctor", "Checks the set-up, with a self-test, and says what to do.", "ridgeline doctor"},
+      [quick](Context& c) { return RunDoctor(c, *quick); });
   command->add_flag("--quick", *quick, "Without the self-test");
 }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <unistd.h>
+
 #include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <opencv2/core/utility.hpp>
 #include <string>
 #include <vector>
-#include <unistd.h>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
@@ -68,13 +69,13 @@ int main(int argc, char** argv) {
     if (parsed != kExitOk) return parsed;
     cv::setNumThreads(ResolveThreads(context.threads));
     const int exit_code = context.run();
-    if (!std::cout.flush()) return Fail(context, "standard output cannot be written", kExitBadInput);
+    if (!std::cout.flush())
+      return Fail(context, "standard output cannot be written", kExitBadInput);
     return exit_code;
   } catch (const InputError& e) {
     return Fail(context, e.what(), kExitBadInput);
   } catch (const std::exception& e) {
-    return Fail(context,
-                std::string("internal error, please report it: ") + e.what(),
-                kExitInternal);
+    return Fail(
+        context, std::string("internal error, please report it: ") + e.what(), kExitInternal);
   }
 }

@@ -38,8 +38,7 @@ std::string ProgressText(const std::string& title,
                          std::size_t total,
                          const std::string& unit,
                          double seconds) {
-  std::string text =
-      title + "  " + std::to_string(done) + "/" + std::to_string(total) + " " + unit;
+  std::string text = title + "  " + std::to_string(done) + "/" + std::to_string(total) + " " + unit;
   if (done == 0 || seconds <= 0.0) return text;
   const double rate = static_cast<double>(done) / seconds;
   char number[32];
@@ -85,7 +84,8 @@ void Progress::Show(bool last) {
   if (silent_) return;
   const Clock::time_point now = Clock::now();
   const bool first = now == start_ || shown_ == start_;
-  const bool due = terminal_ ? first || now - shown_ >= kTerminalPeriod : now - shown_ >= kPlainPeriod;
+  const bool due =
+      terminal_ ? first || now - shown_ >= kTerminalPeriod : now - shown_ >= kPlainPeriod;
   if (!last && !due) return;
   shown_ = now;
   const double seconds = std::chrono::duration<double>(now - start_).count();

@@ -73,13 +73,13 @@ int RunRender(const RenderArguments& arguments, const Context& context) {
 
 void AddRenderCommand(CLI::App& app, Context& context) {
   auto arguments = std::make_shared<RenderArguments>();
-  CLI::App* command =
-      AddCommand(app,
-                 context,
-                 {"render",
-                  "Draws the model as seen from a pose: edges over a photo, depth, ids.",
-                  "ridgeline render --dataset town/dataset.json --query street_000 --out edges.png"},
-                 [arguments](Context& c) { return RunRender(*arguments, c); });
+  CLI::App* command = AddCommand(
+      app,
+      context,
+      {"render",
+       "Draws the model as seen from a pose: edges over a photo, depth, ids.",
+       "ridgeline render --dataset town/dataset.json --query street_000 --out edges.png"},
+      [arguments](Context& c) { return RunRender(*arguments, c); });
   AddViewOptions(*command, arguments->view);
   command->add_option("--out", arguments->out, "Visible edges over the photo (.png, .jpg, .svg)");
   command->add_option("--shaded", arguments->shaded, "Shaded view of the model (.png, .jpg)");

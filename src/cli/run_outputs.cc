@@ -40,8 +40,8 @@ void WriteOverlayOf(const BenchRun& run,
                     const Localizer& localizer,
                     const fs::path& path) {
   const cv::Mat photo = UndistortImage(BgrOf(ReadPicture(query.image)), *query.camera);
-  WriteOverlay(photo, ResultOverlay(localizer, query.camera->Pinhole(), run), OverlayDrawOptions{},
-               path);
+  WriteOverlay(
+      photo, ResultOverlay(localizer, query.camera->Pinhole(), run), OverlayDrawOptions{}, path);
 }
 
 }  // namespace
@@ -73,7 +73,8 @@ void CheckRunOutputs(const RunOutputs& outputs, bool many) {
   if (outputs.overlays.empty()) return;
   std::error_code error;
   fs::create_directories(outputs.overlays, error);
-  if (error) throw InputError("--overlays", "", outputs.overlays + ": " + error.message(), "a folder");
+  if (error)
+    throw InputError("--overlays", "", outputs.overlays + ": " + error.message(), "a folder");
 }
 
 void WriteRunOutputs(const RunOutputs& outputs,
@@ -89,7 +90,10 @@ void WriteRunOutputs(const RunOutputs& outputs,
     const std::string crs = epsg == 0 ? "" : "EPSG:" + std::to_string(epsg);
     const ReportData data =
         BenchReport({origin.title, origin.command, VersionText(), crs, origin.options_json},
-                    queries, localizer, ranges, runs);
+                    queries,
+                    localizer,
+                    ranges,
+                    runs);
     if (!outputs.map.empty()) {
       WriteMap(data.runs, epsg, outputs.map);
       context.Note("map: " + outputs.map);
@@ -115,8 +119,8 @@ void WriteRunOutputs(const RunOutputs& outputs,
       context.Warn("no energy map: this search method makes none");
       return;
     }
-    WriteEnergyMap({map.first, map.spacing_m, map.columns, map.rows, map.energies}, epsg,
-                   outputs.energy_map);
+    WriteEnergyMap(
+        {map.first, map.spacing_m, map.columns, map.rows, map.energies}, epsg, outputs.energy_map);
     context.Note("energy map: " + outputs.energy_map);
   }
 }

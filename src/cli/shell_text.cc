@@ -103,9 +103,12 @@ std::string ZshArgument(Option option) {
 std::string Troff(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
-    if (c == '\\') escaped += "\\e";
-    else if (c == '-') escaped += "\\-";
-    else escaped += c;
+    if (c == '\\')
+      escaped += "\\e";
+    else if (c == '-')
+      escaped += "\\-";
+    else
+      escaped += c;
   }
   if (!escaped.empty() && (escaped[0] == '.' || escaped[0] == '\'')) escaped.insert(0, "\\&");
   return CLI::detail::find_and_replace(escaped, "\n.", "\n\\&.");
@@ -118,8 +121,8 @@ std::string Upper(std::string text) {
 
 std::string OptionManual(Option option) {
   const bool positional = option->get_positional();
-  std::string text = ".TP\n.B " + Troff(positional ? option->get_name(true)
-                                                   : Join(NamesOf(option), ", "));
+  std::string text =
+      ".TP\n.B " + Troff(positional ? option->get_name(true) : Join(NamesOf(option), ", "));
   const std::string type = option->get_type_name();
   if (!positional && TakesValue(option)) text += " " + Troff(type.substr(0, type.find(':')));
   std::string description = option->get_description();
@@ -157,8 +160,8 @@ std::string BashCompletion(const CLI::App& program) {
          "    case ${COMP_WORDS[i]} in -*) ;; *) command=${COMP_WORDS[i]}; break ;; esac\n"
          "  done\n"
          "  case $command in\n" +
-         options +
-         "    *) words='" + Join(commands, " ") + " " + AllNames(program) + "' ;;\n"
+         options + "    *) words='" + Join(commands, " ") + " " + AllNames(program) +
+         "' ;;\n"
          "  esac\n"
          "  case $command:$previous in\n" +
          CLI::detail::find_and_replace(choices, "      ", "    ") +
@@ -181,7 +184,8 @@ std::string ZshCompletion(const CLI::App& program) {
   std::string commands;
   std::string cases;
   for (const CLI::App* command : CommandsOf(program)) {
-    commands += "    " + Quoted(command->get_name() + ":" + ZshText(command->get_description())) + "\n";
+    commands +=
+        "    " + Quoted(command->get_name() + ":" + ZshText(command->get_description())) + "\n";
     cases += "    " + command->get_name() + ")\n      _arguments \\\n";
     for (const Option option : OptionsOf(*command)) cases += ZshArgument(option);
     cases += "        '*:file:_files' ;;\n";
@@ -210,7 +214,8 @@ std::string ZshCompletion(const CLI::App& program) {
 }
 
 std::string ProgramManual(const CLI::App& program) {
-  std::string text = ".TH RIDGELINE 1\n.SH NAME\nridgeline \\- " + Troff(program.get_description()) +
+  std::string text = ".TH RIDGELINE 1\n.SH NAME\nridgeline \\- " +
+                     Troff(program.get_description()) +
                      "\n.SH SYNOPSIS\n.B ridgeline\n[options] command [arguments]\n"
                      ".SH COMMANDS\n";
   for (const CLI::App* command : CommandsOf(program)) {
@@ -228,8 +233,7 @@ std::string CommandManual(const CLI::App& program, const CLI::App& command) {
          Troff(command.get_description()) + "\n.SH SYNOPSIS\n.B ridgeline " + Troff(name) +
          "\n[options]" + Troff(positionals) + "\n.SH OPTIONS\n" + OptionsManual(command) +
          ".SH GLOBAL OPTIONS\n" + OptionsManual(program) + ".SH EXAMPLE\n.nf\n" +
-         Troff(command.get_footer()) + "\n.fi\n" + kExitCodes +
-         ".SH SEE ALSO\n.BR ridgeline (1)\n";
+         Troff(command.get_footer()) + "\n.fi\n" + kExitCodes + ".SH SEE ALSO\n.BR ridgeline (1)\n";
 }
 
 }  // namespace ridgeline

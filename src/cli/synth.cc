@@ -71,7 +71,8 @@ int RunSynth(SynthArguments& arguments, const Context& context) {
               is_walk ? walk.height : options.height);
   }
   if (arguments.buildings) {
-    const int side = static_cast<int>(std::ceil(std::sqrt(*arguments.buildings / kBuildingsPerBlock)));
+    const int side =
+        static_cast<int>(std::ceil(std::sqrt(*arguments.buildings / kBuildingsPerBlock)));
     options.town.blocks_east = options.town.blocks_north = std::max(1, side);
   }
   walk.town = options.town;
@@ -142,7 +143,8 @@ void AddSynthCommand(CLI::App& app, Context& context) {
       ->type_name("FRAMES");
   command->add_option("--size", arguments->size, "Size of the pictures [1280x960; walk 640x480]")
       ->type_name("WxH");
-  command->add_option("--buildings", arguments->buildings, "About so many buildings, in tiles if many");
+  command->add_option(
+      "--buildings", arguments->buildings, "About so many buildings, in tiles if many");
   command->add_option("--set", arguments->set, "Any other option, e.g. --set survey_sigma_m=0.2")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);

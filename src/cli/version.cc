@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/version.h"
 
+#include <ceres/version.h>
 #include <embree3/rtcore_config.h>
 #include <gdal.h>
 #include <proj.h>
 
-#include <ceres/version.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/core/version.hpp>
 

@@ -47,9 +47,9 @@ Pose ReadPoseFile(const fs::path& path) {
   const nlohmann::json& pose = json.is_object() && json.contains("pose") ? json["pose"] : json;
   const auto numbers = [&](const char* key, std::size_t count) {
     const auto it = pose.is_object() ? pose.find(key) : pose.end();
-    const bool valid = pose.is_object() && it != pose.end() && it->is_array() &&
-                       it->size() == count &&
-                       std::all_of(it->begin(), it->end(), [](const auto& v) { return v.is_number(); });
+    const bool valid =
+        pose.is_object() && it != pose.end() && it->is_array() && it->size() == count &&
+        std::all_of(it->begin(), it->end(), [](const auto& v) { return v.is_number(); });
     if (!valid) {
       throw InputError(path.string(), key, "nothing usable", std::to_string(count) + " numbers");
     }
@@ -67,8 +67,8 @@ Pose ParsePose(const std::string& text) {
   const std::vector<double> values = CommaNumbers(text);
   if (values.empty()) return ReadPoseFile(text);
   if (values.size() != 6) {
-    throw InputError("--pose", "", "\"" + text + "\"",
-                     "east,north,height,heading,pitch,roll or a pose file");
+    throw InputError(
+        "--pose", "", "\"" + text + "\"", "east,north,height,heading,pitch,roll or a pose file");
   }
   Pose pose;
   pose.center_in_world = {values[0], values[1], values[2]};
@@ -82,11 +82,11 @@ void TakeQuery(const ViewArguments& arguments, Named& named) {
   for (const Query& query : dataset.queries) ids.push_back(query.id);
   const auto it = std::find(ids.begin(), ids.end(), arguments.query);
   if (it == ids.end()) {
-    throw InputError("--query",
-                     "",
-                     "\"" + arguments.query + "\"",
-                     "a query of " + arguments.dataset + ", e.g. \"" +
-                         NearestName(arguments.query, ids) + "\"");
+    throw InputError(
+        "--query",
+        "",
+        "\"" + arguments.query + "\"",
+        "a query of " + arguments.dataset + ", e.g. \"" + NearestName(arguments.query, ids) + "\"");
   }
   const Query& query = dataset.queries[static_cast<std::size_t>(it - ids.begin())];
   named.model = dataset.model;
@@ -128,20 +128,21 @@ Pose PoseOfPrior(const PosePrior& prior, const ViewInput& view) {
     height = *prior.height_in_world - view.model.origin_in_world.z();
   } else {
     const auto terrain = view.dtm ? view.dtm->HeightAt(xy) : std::nullopt;
-    if (!terrain) throw InputError("prior", "position", "no height", "a height, or a DTM that covers it");
+    if (!terrain)
+      throw InputError("prior", "position", "no height", "a height, or a DTM that covers it");
     height = *terrain + 1.7;
   }
   Pose pose;
   pose.center_in_world = {xy.x(), xy.y(), height};
-  pose.cam_from_world = CamFromWorld(ViewAngles{
-      prior.heading_deg.value_or(0.0), prior.pitch_deg.value_or(0.0), prior.roll_deg.value_or(0.0)});
+  pose.cam_from_world = CamFromWorld(ViewAngles{prior.heading_deg.value_or(0.0),
+                                                prior.pitch_deg.value_or(0.0),
+                                                prior.roll_deg.value_or(0.0)});
   return pose;
 }
 
 cv::Mat ReadPhoto(const fs::path& path, const CameraIntrinsics& camera) {
   ReadFile(path);  // says what is wrong with the file itself
-  const cv::Mat photo =
-      cv::imread(path.string(), cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  const cv::Mat photo = cv::imread(path.string(), cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
   if (photo.empty()) throw InputError(path.string(), "", "no picture", "a JPEG, PNG or TIFF file");
   if (photo.cols != camera.width || photo.rows != camera.height) {
     throw InputError(path.string(),
@@ -187,8 +188,8 @@ std::unique_ptr<ViewInput> ReadView(const ViewArguments& arguments, int threads)
     }
     view->dtm = ReadDtm(*named.dtm, view->model, lower, upper, 100.0, view->warnings);
   }
-  view->scene = std::make_unique<Scene>(
-      view->model, view->dtm ? &*view->dtm : nullptr, ProjectionOptions{});
+  view->scene =
+      std::make_unique<Scene>(view->model, view->dtm ? &*view->dtm : nullptr, ProjectionOptions{});
   if (named.pose) {
     view->cam_from_local = *named.pose;
     view->cam_from_local.center_in_world -= view->model.origin_in_world;

@@ -72,8 +72,8 @@ void AddGround(const Localizer& localizer, const PoseSpaceOptions& ranges, Repor
   const Vector2d from = lower - margin;
   const Vector2d to = upper + margin;
   if (localizer.dtm() != nullptr) {
-    run.hillshade = ReportHillshade{
-        Hillshade(*localizer.dtm(), from - origin, to - origin, 160), from, to};
+    run.hillshade =
+        ReportHillshade{Hillshade(*localizer.dtm(), from - origin, to - origin, 160), from, to};
   }
   for (const auto& ring : localizer.footprints().rings()) {
     std::vector<Vector2d> points;
@@ -170,13 +170,13 @@ void AddSummary(std::span<const BenchRun> runs, ReportData& data) {
   if (runs.size() == 1) {
     const RunRecord& record = runs.front().record;
     if (record.error) {
-      data.facts.emplace_back("error", Text("%.2f m, ", record.error->translation_m) +
-                                           Text("%.2f°", record.error->rotation_deg));
+      data.facts.emplace_back("error",
+                              Text("%.2f m, ", record.error->translation_m) +
+                                  Text("%.2f°", record.error->rotation_deg));
     }
     data.facts.emplace_back("confidence", Text("%.2f", record.confidence));
     data.facts.emplace_back("time", Text("%.2f s", record.seconds));
-    data.facts.emplace_back("poses evaluated",
-                            Grouped(static_cast<double>(record.evaluations)));
+    data.facts.emplace_back("poses evaluated", Grouped(static_cast<double>(record.evaluations)));
     return;
   }
   std::vector<RunRecord> records;
@@ -197,11 +197,11 @@ void AddSummary(std::span<const BenchRun> runs, ReportData& data) {
   ReportTable table{"Recall", {"within", "of all runs", "95 % interval", "of the answered"}, {}};
   for (std::size_t i = 0; i < kRecallThresholds.size(); ++i) {
     const RecallThreshold& threshold = kRecallThresholds[i];
-    table.rows.push_back({Text("%g m, ", threshold.translation_m) + Text("%g°", threshold.rotation_deg),
-                          Percent(summary.recall[i]),
-                          Percent(summary.recall_ci95[i].lower) + " to " +
-                              Percent(summary.recall_ci95[i].upper),
-                          Percent(summary.recall_answered[i])});
+    table.rows.push_back(
+        {Text("%g m, ", threshold.translation_m) + Text("%g°", threshold.rotation_deg),
+         Percent(summary.recall[i]),
+         Percent(summary.recall_ci95[i].lower) + " to " + Percent(summary.recall_ci95[i].upper),
+         Percent(summary.recall_answered[i])});
   }
   data.tables.push_back(std::move(table));
 }
@@ -217,12 +217,14 @@ Pose PoseOfPrior(const PosePrior& prior, const Localizer& localizer) {
   }
   Pose pose;
   pose.center_in_world = {prior.position_in_world.x(), prior.position_in_world.y(), height};
-  pose.cam_from_world = CamFromWorld(ViewAngles{
-      prior.heading_deg.value_or(0.0), prior.pitch_deg.value_or(0.0), prior.roll_deg.value_or(0.0)});
+  pose.cam_from_world = CamFromWorld(ViewAngles{prior.heading_deg.value_or(0.0),
+                                                prior.pitch_deg.value_or(0.0),
+                                                prior.roll_deg.value_or(0.0)});
   return pose;
 }
 
-Overlay ResultOverlay(const Localizer& localizer, const PinholeCamera& camera,
+Overlay ResultOverlay(const Localizer& localizer,
+                      const PinholeCamera& camera,
                       const BenchRun& run) {
   const Scene& scene = localizer.scene();
   Overlay overlay;

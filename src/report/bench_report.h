@@ -29,11 +29,9 @@ ReportData BenchReport(const ReportOrigin& origin,
                        const PoseSpaceOptions& ranges,
                        std::span<const BenchRun> runs);
 
-// Model edges at the prior (thin, grey) and at the result (by kind) over the photo, on its undistorted
-// picture; at the best mode if there is no result.
-Overlay ResultOverlay(const Localizer& localizer,
-                      const PinholeCamera& camera,
-                      const BenchRun& run);
+// Model edges at the prior (thin, grey) and at the result (by kind) over the photo, on its
+// undistorted picture; at the best mode if there is no result.
+Overlay ResultOverlay(const Localizer& localizer, const PinholeCamera& camera, const BenchRun& run);
 
 // The prior as a pose in the world frame; what is not known is level, to the north, and
 // `camera_height_m` above the terrain.

@@ -8,9 +8,9 @@
 
 namespace ridgeline {
 
-// One HTML file that opens offline: summary, plots, and a gallery of the runs, failures first. Photos
-// are scaled so that a report of a thousand queries still opens. Texts are data: nothing in them is
-// taken for markup.
+// One HTML file that opens offline: summary, plots, and a gallery of the runs, failures first.
+// Photos are scaled so that a report of a thousand queries still opens. Texts are data: nothing in
+// them is taken for markup.
 std::string HtmlReport(const ReportData& data);
 
 // Writes it, whole or not at all. Throws InputError if the file cannot be written.

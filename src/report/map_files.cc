@@ -71,13 +71,12 @@ std::vector<Feature> FeaturesOf(std::span<const ReportRun> runs) {
                           nullptr});
     }
     if (run.result && run.position_covariance) {
-      features.push_back(
-          {"ellipses",
-           "",
-           Shape::kPolygon,
-           EllipseOutline(run.result->position.head<2>(), *run.position_covariance),
-           &run,
-           nullptr});
+      features.push_back({"ellipses",
+                          "",
+                          Shape::kPolygon,
+                          EllipseOutline(run.result->position.head<2>(), *run.position_covariance),
+                          &run,
+                          nullptr});
     }
   }
   return features;
@@ -163,7 +162,9 @@ OGRSpatialReference SystemOf(int epsg) {
 
 [[noreturn]] void FailWriting(const fs::path& path) {
   const std::string message = CPLGetLastErrorMsg();
-  throw InputError(path.string(), "", message.empty() ? "a failed write" : message,
+  throw InputError(path.string(),
+                   "",
+                   message.empty() ? "a failed write" : message,
                    "a folder with space and permission to write");
 }
 
@@ -226,8 +227,8 @@ void WriteEnergyMap(const ReportEnergyMap& map, int epsg, const fs::path& path) 
       driver->Create(temporary.c_str(), map.columns, map.rows, 1, GDT_Float32, nullptr));
   if (!dataset) FailWriting(path);
   const double north = map.first.y() + (map.rows - 0.5) * map.spacing_m;
-  std::array<double, 6> transform = {map.first.x() - 0.5 * map.spacing_m, map.spacing_m, 0.0,
-                                     north, 0.0, -map.spacing_m};
+  std::array<double, 6> transform = {
+      map.first.x() - 0.5 * map.spacing_m, map.spacing_m, 0.0, north, 0.0, -map.spacing_m};
   dataset->SetGeoTransform(transform.data());
   if (epsg != 0) {
     const OGRSpatialReference system = SystemOf(epsg);
@@ -240,8 +241,9 @@ void WriteEnergyMap(const ReportEnergyMap& map, int epsg, const fs::path& path) 
   for (int r = 0; r < map.rows; ++r) {
     const auto first = map.energies.begin() + static_cast<long>(map.rows - 1 - r) * map.columns;
     row.assign(first, first + map.columns);
-    if (band->RasterIO(GF_Write, 0, r, map.columns, 1, row.data(), map.columns, 1, GDT_Float32, 0,
-                       0) != CE_None) {
+    if (band->RasterIO(
+            GF_Write, 0, r, map.columns, 1, row.data(), map.columns, 1, GDT_Float32, 0, 0) !=
+        CE_None) {
       FailWriting(path);
     }
   }

@@ -8,11 +8,11 @@
 
 namespace ridgeline {
 
-// Writes runs as a map, whole or not at all: .gpkg (GeoPackage, a layer per kind), .geojson (one layer,
-// coordinates and "crs" member of the model's system) or .kml (WGS 84). Kinds, also in the attribute
-// "layer": poses (priors, results, truths), prior_boxes, view_cones, errors (result to truth),
-// ellipses (95 %). Throws InputError for another extension, a KML of a model without a known CRS, or a
-// file that cannot be written.
+// Writes runs as a map, whole or not at all: .gpkg (GeoPackage, a layer per kind), .geojson (one
+// layer, coordinates and "crs" member of the model's system) or .kml (WGS 84). Kinds, also in the
+// attribute "layer": poses (priors, results, truths), prior_boxes, view_cones, errors (result to
+// truth), ellipses (95 %). Throws InputError for another extension, a KML of a model without a
+// known CRS, or a file that cannot be written.
 // @param epsg  Of all coordinates; 0: not known.
 void WriteMap(std::span<const ReportRun> runs, int epsg, const std::filesystem::path& path);
 

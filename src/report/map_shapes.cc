@@ -17,8 +17,8 @@ std::vector<Vector2d> EllipseOutline(const Vector2d& center, const Eigen::Matrix
   std::vector<Vector2d> outline;
   for (int i = 0; i <= kSides; ++i) {
     const double turn = 2.0 * std::numbers::pi * (i % kSides) / kSides;
-    outline.push_back(center + solver.eigenvectors() * Vector2d(axes.x() * std::cos(turn),
-                                                                axes.y() * std::sin(turn)));
+    outline.push_back(center + solver.eigenvectors() *
+                                   Vector2d(axes.x() * std::cos(turn), axes.y() * std::sin(turn)));
   }
   return outline;
 }

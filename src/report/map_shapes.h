@@ -8,7 +8,8 @@
 
 namespace ridgeline {
 
-// Closed outline of the 95 % ellipse of a position (chi-square with two degrees of freedom), 48 sides.
+// Closed outline of the 95 % ellipse of a position (chi-square with two degrees of freedom), 48
+// sides.
 std::vector<Eigen::Vector2d> EllipseOutline(const Eigen::Vector2d& center,
                                             const Eigen::Matrix2d& covariance);
 

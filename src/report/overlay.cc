@@ -104,7 +104,8 @@ void DrawLegend(const Overlay& overlay, double scale, cv::Mat& picture) {
 
 }  // namespace
 
-cv::Mat DrawOverlay(const cv::Mat& photo, const Overlay& overlay,
+cv::Mat DrawOverlay(const cv::Mat& photo,
+                    const Overlay& overlay,
                     const OverlayDrawOptions& options) {
   cv::Mat picture;
   if (photo.channels() == 1) {

@@ -40,15 +40,17 @@ struct OverlayDrawOptions {
 };
 
 // The photo (8-bit, 1 or 3 channels) with the lines drawn in, 8-bit BGR.
-cv::Mat DrawOverlay(const cv::Mat& photo, const Overlay& overlay, const OverlayDrawOptions& options);
+cv::Mat DrawOverlay(const cv::Mat& photo,
+                    const Overlay& overlay,
+                    const OverlayDrawOptions& options);
 
 // The same as SVG: lines stay sharp, the photo is embedded as JPEG.
 std::string OverlaySvg(const cv::Mat& photo,
                        const Overlay& overlay,
                        const OverlayDrawOptions& options);
 
-// Writes the overlay as its extension says: .png, .jpg or .svg; whole or not at all. Throws InputError
-// for another extension or a file that cannot be written.
+// Writes the overlay as its extension says: .png, .jpg or .svg; whole or not at all. Throws
+// InputError for another extension or a file that cannot be written.
 void WriteOverlay(const cv::Mat& photo,
                   const Overlay& overlay,
                   const OverlayDrawOptions& options,

@@ -13,16 +13,18 @@ constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 // The directions a camera sees, with a margin; all around when it looks steeply up or down.
 Sector SectorOf(const PinholeCamera& camera, const Pose& cam_from_local) {
   const ViewAngles angles = ViewAnglesOf(cam_from_local.cam_from_world);
-  const double half_diagonal = std::atan(
-      std::hypot(std::max(camera.cx, camera.width - camera.cx) / camera.fx,
-                 std::max(camera.cy, camera.height - camera.cy) / camera.fy));
+  const double half_diagonal =
+      std::atan(std::hypot(std::max(camera.cx, camera.width - camera.cx) / camera.fx,
+                           std::max(camera.cy, camera.height - camera.cy) / camera.fy));
   Sector sector;
   sector.center = angles.heading_deg * kRadPerDeg;
   const double steepest = std::abs(angles.pitch_deg) * kRadPerDeg + half_diagonal;
   if (steepest < 0.5 * std::numbers::pi) {
     sector.half_width =
-        std::min(std::numbers::pi, std::asin(std::min(1.0, std::sin(half_diagonal) /
-                                             std::cos(angles.pitch_deg * kRadPerDeg))) + 0.02);
+        std::min(std::numbers::pi,
+                 std::asin(std::min(
+                     1.0, std::sin(half_diagonal) / std::cos(angles.pitch_deg * kRadPerDeg))) +
+                     0.02);
   }
   return sector;
 }
@@ -69,8 +71,10 @@ std::vector<OverlayLayer> ModelEdgeLayers(const Scene& scene,
   std::vector<ProjectedSegment> segments;
   ProjectPieces(visible, camera, cam_from_local, segments);
   // Skyline last, on top: it is what the eye compares first.
-  constexpr std::array<EdgeKind, kEdgeKinds> kOrder = {EdgeKind::kSeam, EdgeKind::kGround,
-                                                       EdgeKind::kFold, EdgeKind::kOcclusion,
+  constexpr std::array<EdgeKind, kEdgeKinds> kOrder = {EdgeKind::kSeam,
+                                                       EdgeKind::kGround,
+                                                       EdgeKind::kFold,
+                                                       EdgeKind::kOcclusion,
                                                        EdgeKind::kSkyline};
   std::vector<OverlayLayer> layers;
   for (const EdgeKind kind : kOrder) {
@@ -146,8 +150,8 @@ OverlayLayer ModelSkylineLayer(const Scene& scene,
                                     std::cos(azimuth) * std::cos(elevation),
                                     std::sin(elevation));
     const Eigen::Vector3d in_camera = cam_from_local.cam_from_world * direction;
-    const Eigen::Vector2d px = in_camera.z() > 0.01 ? camera.ImageFromCamera(in_camera)
-                                                    : Eigen::Vector2d(-1.0, -1.0);
+    const Eigen::Vector2d px =
+        in_camera.z() > 0.01 ? camera.ImageFromCamera(in_camera) : Eigen::Vector2d(-1.0, -1.0);
     if (px.x() >= 0.0 && px.x() <= camera.width && px.y() >= 0.0 && px.y() <= camera.height) {
       run.push_back(px.cast<float>());
       continue;

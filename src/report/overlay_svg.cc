@@ -72,7 +72,8 @@ std::string Legend(const Overlay& overlay, double scale, int height) {
 
 }  // namespace
 
-std::string OverlaySvg(const cv::Mat& photo, const Overlay& overlay,
+std::string OverlaySvg(const cv::Mat& photo,
+                       const Overlay& overlay,
                        const OverlayDrawOptions& options) {
   const double scale = OverlayScale(photo.size());
   const std::string width = std::to_string(photo.cols);

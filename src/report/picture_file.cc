@@ -38,8 +38,11 @@ std::string Base64(const std::vector<uchar>& bytes) {
 std::size_t Utf8Length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char lead = byte(0);
-  const std::size_t length = lead < 0x80 ? 1 : lead >= 0xC2 && lead < 0xE0 ? 2
-                             : lead >= 0xE0 && lead < 0xF0 ? 3 : lead >= 0xF0 && lead < 0xF5 ? 4 : 0;
+  const std::size_t length = lead < 0x80                   ? 1
+                             : lead >= 0xC2 && lead < 0xE0 ? 2
+                             : lead >= 0xE0 && lead < 0xF0 ? 3
+                             : lead >= 0xF0 && lead < 0xF5 ? 4
+                                                           : 0;
   if (length == 0 || length > text.size()) return 0;
   for (std::size_t i = 1; i < length; ++i) {
     if ((byte(i) & 0xC0) != 0x80) return 0;
@@ -53,7 +56,8 @@ void WritePicture(const cv::Mat& picture, const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
   constexpr std::array<std::string_view, 3> kKnown = {".png", ".jpg", ".jpeg"};
   if (std::find(kKnown.begin(), kKnown.end(), extension) == kKnown.end()) {
-    throw InputError(path.string(), "", "\"" + extension + "\"", "a name that ends in .png or .jpg");
+    throw InputError(
+        path.string(), "", "\"" + extension + "\"", "a name that ends in .png or .jpg");
   }
   std::vector<uchar> bytes;
   cv::imencode(extension, picture, bytes);

@@ -44,8 +44,8 @@ std::vector<Share95> RecallCurve(std::span<const ReportRun> runs) {
     int all = 0;
     int right = 0;
     for (const auto& query : queries) {
-      hits.push_back(static_cast<int>(
-          std::count_if(query.begin(), query.end(), [&](auto* run) { return Within(*run, limit); })));
+      hits.push_back(static_cast<int>(std::count_if(
+          query.begin(), query.end(), [&](auto* run) { return Within(*run, limit); })));
       all += static_cast<int>(query.size());
       right += hits.back();
     }
@@ -76,8 +76,8 @@ Share95 WilsonShare(double x, int hits, int count) {
   const double n = count;
   const double p = hits / n;
   const double middle = (p + kZ * kZ / (2.0 * n)) / (1.0 + kZ * kZ / n);
-  const double half = kZ / (1.0 + kZ * kZ / n) *
-                      std::sqrt(p * (1.0 - p) / n + kZ * kZ / (4.0 * n * n));
+  const double half =
+      kZ / (1.0 + kZ * kZ / n) * std::sqrt(p * (1.0 - p) / n + kZ * kZ / (4.0 * n * n));
   return {x, p, std::max(0.0, middle - half), std::min(1.0, middle + half), count};
 }
 

@@ -17,8 +17,8 @@ struct Share95 {
   int count = 0;
 };
 
-// Share of the runs with truth within (x m, x degrees), for x from 0.25 to 10. Intervals by bootstrap
-// over whole queries (500 resamples, fixed seed). Empty without truth.
+// Share of the runs with truth within (x m, x degrees), for x from 0.25 to 10. Intervals by
+// bootstrap over whole queries (500 resamples, fixed seed). Empty without truth.
 std::vector<Share95> RecallCurve(std::span<const ReportRun> runs);
 
 // Share of right poses among the answered runs with truth, in bins of reported confidence; x is the

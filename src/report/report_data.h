@@ -12,8 +12,8 @@
 
 namespace ridgeline {
 
-// What the HTML report shows. Plain data: localize, bench, study and skyline fill in what they have;
-// what is absent is not shown.
+// What the HTML report shows. Plain data: localize, bench, study and skyline fill in what they
+// have; what is absent is not shown.
 
 struct ReportPose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // east, north, height in the CRS [m]
@@ -48,11 +48,11 @@ enum class ReportOutcome { kRight, kWrong, kAbstained, kUnknown };  // kUnknown:
 // One query localized once.
 struct ReportRun {
   std::string id;
-  std::string set;    // may be empty
+  std::string set;  // may be empty
   int seed = 0;
-  int photo = -1;     // index into ReportData::photos; -1: none
-  std::string status; // "ok", "ambiguous", ...
-  std::string reason; // of an abstention, in words
+  int photo = -1;      // index into ReportData::photos; -1: none
+  std::string status;  // "ok", "ambiguous", ...
+  std::string reason;  // of an abstention, in words
   ReportOutcome outcome = ReportOutcome::kUnknown;
   double energy = 1.0;
   double confidence = 0.0;
@@ -70,7 +70,7 @@ struct ReportRun {
   std::vector<OverlayLayer> prior_layers;                // lines over the photo [px of the photo]
   std::vector<OverlayLayer> result_layers;
   std::vector<double> best_energy;  // after each evaluation, or at even steps; may be empty
-  double hfov_deg = 0.0;  // horizontal field of view; 0: not known
+  double hfov_deg = 0.0;            // horizontal field of view; 0: not known
   double evaluations = 0.0;
   double seconds = 0.0;
   std::vector<std::pair<std::string, std::string>> facts;  // more rows for the table of the run
@@ -110,7 +110,7 @@ struct ReportData {
   std::string title;    // e.g. "Bench of munich-arcisstrasse"
   std::string command;  // how to make it again
   std::string version;
-  std::string crs;      // of all positions; may be empty
+  std::string crs;                                         // of all positions; may be empty
   std::vector<std::pair<std::string, std::string>> facts;  // big figures: name, value
   std::vector<ReportPhoto> photos;
   std::vector<ReportRun> runs;

@@ -37,7 +37,8 @@ Json Centimetres(const std::vector<Vector2d>& points, const Vector2d& origin) {
 Json PoseJson(const std::optional<ReportPose>& pose) {
   if (!pose) return nullptr;
   return {{"position",
-           {Number(pose->position.x(), 1e-3), Number(pose->position.y(), 1e-3),
+           {Number(pose->position.x(), 1e-3),
+            Number(pose->position.y(), 1e-3),
             Number(pose->position.z(), 1e-3)}},
           {"heading", Number(pose->heading_deg, 1e-3)},
           {"pitch", Number(pose->pitch_deg, 1e-3)},
@@ -101,10 +102,12 @@ Json MapJson(const ReportEnergyMap& map, const Vector2d& origin) {
 
 Json HillshadeJson(const ReportHillshade& hillshade, const Vector2d& origin) {
   return {{"url", JpegDataUrl(hillshade.shade, 512, 85)},
-          {"lower", {Number(hillshade.lower.x() - origin.x(), 1e-2),
-                     Number(hillshade.lower.y() - origin.y(), 1e-2)}},
-          {"upper", {Number(hillshade.upper.x() - origin.x(), 1e-2),
-                     Number(hillshade.upper.y() - origin.y(), 1e-2)}}};
+          {"lower",
+           {Number(hillshade.lower.x() - origin.x(), 1e-2),
+            Number(hillshade.lower.y() - origin.y(), 1e-2)}},
+          {"upper",
+           {Number(hillshade.upper.x() - origin.x(), 1e-2),
+            Number(hillshade.upper.y() - origin.y(), 1e-2)}}};
 }
 
 Json RunRow(const ReportRun& run) {
@@ -126,8 +129,11 @@ Json RunRow(const ReportRun& run) {
 Json CurveJson(const std::vector<Share95>& curve) {
   Json list = Json::array();
   for (const Share95& s : curve) {
-    list.push_back({Number(s.x, 1e-4), Number(s.share, 1e-5), Number(s.lower, 1e-5),
-                    Number(s.upper, 1e-5), s.count});
+    list.push_back({Number(s.x, 1e-4),
+                    Number(s.share, 1e-5),
+                    Number(s.lower, 1e-5),
+                    Number(s.upper, 1e-5),
+                    s.count});
   }
   return list;
 }
@@ -145,10 +151,15 @@ Json PlotJson(const ReportPlot& plot) {
     Json y = Json::array();
     for (const double value : s.x) x.push_back(Number(value, 1e-6));
     for (const double value : s.y) y.push_back(Number(value, 1e-6));
-    series.push_back({{"name", s.name}, {"x", x}, {"y", y}, {"labels", s.labels}, {"line", s.line}});
+    series.push_back(
+        {{"name", s.name}, {"x", x}, {"y", y}, {"labels", s.labels}, {"line", s.line}});
   }
-  return {{"title", plot.title},     {"note", plot.note},   {"x", plot.x_label},
-          {"y", plot.y_label},       {"xLog", plot.x_log},  {"series", series}};
+  return {{"title", plot.title},
+          {"note", plot.note},
+          {"x", plot.x_label},
+          {"y", plot.y_label},
+          {"xLog", plot.x_log},
+          {"series", series}};
 }
 
 // '<' could end the <script> element; invalid UTF-8 is replaced.
@@ -210,24 +221,24 @@ std::string RunDetailJson(const ReportRun& run) {
   for (const double energy : run.best_energy) trace.push_back(Number(energy, 1e-5));
   Json ellipse = nullptr;
   if (run.result && run.position_covariance) {
-    ellipse = Centimetres(
-        EllipseOutline(run.result->position.head<2>(), *run.position_covariance), origin);
+    ellipse = Centimetres(EllipseOutline(run.result->position.head<2>(), *run.position_covariance),
+                          origin);
   }
-  return SafeDump({{"origin", {Number(origin.x(), 1e-3), Number(origin.y(), 1e-3)}},
-                   {"prior", PoseJson(run.prior)},
-                   {"result", PoseJson(run.result)},
-                   {"truth", PoseJson(run.truth)},
-                   {"modes", modes},
-                   {"ellipse", ellipse},
-                   {"box", Centimetres(run.search_box, origin)},
-                   {"map", run.map ? MapJson(*run.map, origin) : Json(nullptr)},
-                   {"hillshade",
-                    run.hillshade ? HillshadeJson(*run.hillshade, origin) : Json(nullptr)},
-                   {"footprints", footprints},
-                   {"priorLayers", LayersJson(run.prior_layers)},
-                   {"resultLayers", LayersJson(run.result_layers)},
-                   {"trace", trace},
-                   {"facts", PairsJson(run.facts)}});
+  return SafeDump(
+      {{"origin", {Number(origin.x(), 1e-3), Number(origin.y(), 1e-3)}},
+       {"prior", PoseJson(run.prior)},
+       {"result", PoseJson(run.result)},
+       {"truth", PoseJson(run.truth)},
+       {"modes", modes},
+       {"ellipse", ellipse},
+       {"box", Centimetres(run.search_box, origin)},
+       {"map", run.map ? MapJson(*run.map, origin) : Json(nullptr)},
+       {"hillshade", run.hillshade ? HillshadeJson(*run.hillshade, origin) : Json(nullptr)},
+       {"footprints", footprints},
+       {"priorLayers", LayersJson(run.prior_layers)},
+       {"resultLayers", LayersJson(run.result_layers)},
+       {"trace", trace},
+       {"facts", PairsJson(run.facts)}});
 }
 
 }  // namespace ridgeline

@@ -5,7 +5,8 @@
 
 namespace ridgeline::web {
 
-// Files of web/ and of the npm packages named in web/package.json, embedded by cmake/EmbedText.cmake.
+// Files of web/ and of the npm packages named in web/package.json, embedded by
+// cmake/EmbedText.cmake.
 extern const std::string_view kReportBody;
 extern const std::string_view kReportCss;
 extern const std::string_view kReportJs;

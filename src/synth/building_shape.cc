@@ -56,7 +56,9 @@ std::vector<std::vector<Vector3d>> RoofRings(const RidgeFrame& f, double grow) {
     }
     case RoofType::kShed: {
       const double drop = (r - e) / (2.0 * f.half_v) * grow;
-      return {{f.At(-hu, -hv, e - drop), f.At(hu, -hv, e - drop), f.At(hu, hv, r + drop),
+      return {{f.At(-hu, -hv, e - drop),
+               f.At(hu, -hv, e - drop),
+               f.At(hu, hv, r + drop),
                f.At(-hu, hv, r + drop)}};
     }
     case RoofType::kPyramid: {
@@ -85,7 +87,8 @@ std::vector<std::vector<Vector3d>> RoofRings(const RidgeFrame& f, double grow) {
 }
 
 // Outline of the roof polygons: their edges that no other polygon has.
-std::vector<std::pair<Vector3d, Vector3d>> Outline(const std::vector<std::vector<Vector3d>>& rings) {
+std::vector<std::pair<Vector3d, Vector3d>> Outline(
+    const std::vector<std::vector<Vector3d>>& rings) {
   std::vector<std::pair<Vector3d, Vector3d>> outline;
   for (std::size_t i = 0; i < rings.size(); ++i) {
     for (std::size_t k = 0; k < rings[i].size(); ++k) {

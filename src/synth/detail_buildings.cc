@@ -23,7 +23,9 @@ const std::array<Vector3f, 6> kTileColors = {Vector3f(0.42f, 0.17f, 0.11f),
                                              Vector3f(0.38f, 0.24f, 0.17f),
                                              Vector3f(0.30f, 0.30f, 0.32f)};
 
-void AddWall(const TownBuilding& building, const ShapePolygon& wall, std::size_t side,
+void AddWall(const TownBuilding& building,
+             const ShapePolygon& wall,
+             std::size_t side,
              DetailMesh& mesh) {
   const Vector3d normal = wall.Normal();
   const Vector2d right(-normal.y(), normal.x());  // to the right, seen from outside

@@ -12,8 +12,8 @@ namespace ridgeline {
 
 enum class Material : std::uint8_t { kFacade, kRoof, kPlain, kGlossy, kGround, kLeaves };
 
-// A wall as the facade painter sees it; uv of its triangles: metres along the wall from its left end,
-// metres above the ground floor.
+// A wall as the facade painter sees it; uv of its triangles: metres along the wall from its left
+// end, metres above the ground floor.
 struct WallLook {
   float length_m = 0.0f;
   float storey_m = 3.0f;
@@ -26,7 +26,7 @@ struct WallLook {
 struct DetailTriangle {
   std::array<std::uint32_t, 3> vertices{};
   Material material = Material::kPlain;
-  std::uint32_t wall = 0;  // kFacade: index into walls
+  std::uint32_t wall = 0;                                   // kFacade: index into walls
   Eigen::Vector3f color = Eigen::Vector3f::Constant(0.5f);  // albedo of all other materials
 };
 
@@ -41,8 +41,8 @@ struct DetailMesh {
   void AddPolygon(std::span<const Eigen::Vector3d> ring,
                   std::span<const Eigen::Vector2d> ring_uv,
                   const DetailTriangle& look);
-  // A frustum on a rectangle: `center` of its lower face, unit vector `along`, size at the bottom and
-  // at the top.
+  // A frustum on a rectangle: `center` of its lower face, unit vector `along`, size at the bottom
+  // and at the top.
   void AddFrustum(const Eigen::Vector3d& center,
                   const Eigen::Vector2d& along,
                   const Eigen::Vector2d& lower_size,

@@ -41,14 +41,19 @@ class StreetLife {
       if (random.Uniform() < 0.12) AddPerson(curb + random.Uniform(0.8, 2.0) * inward, random);
       if (random.Uniform() < 0.08) AddSign(curb + 0.3 * inward, along, random);
     }
-    for (double at = 9.0; at < length; at += 27.0) AddLamp(start + at * along + 0.3 * inward, inward);
+    for (double at = 9.0; at < length; at += 27.0)
+      AddLamp(start + at * along + 0.3 * inward, inward);
   }
 
   void AddTree(const Vector2d& xy, Random& random) {
     const double height = random.Uniform(4.5, 9.0);
     const double radius = random.Uniform(1.2, 2.2);
     const Vector3d foot = OnGround(xy);
-    mesh_.AddFrustum(foot, {1.0, 0.0}, {0.3, 0.3}, {0.18, 0.18}, 0.6 * height,
+    mesh_.AddFrustum(foot,
+                     {1.0, 0.0},
+                     {0.3, 0.3},
+                     {0.18, 0.18},
+                     0.6 * height,
                      Look(Material::kPlain, {0.20f, 0.15f, 0.11f}));
     const Vector3f green(static_cast<float>(random.Uniform(0.08, 0.30)),
                          static_cast<float>(random.Uniform(0.20, 0.32)),
@@ -61,7 +66,10 @@ class StreetLife {
   Vector3d OnGround(const Vector2d& xy) const { return {xy.x(), xy.y(), town_.TerrainHeight(xy)}; }
 
   // One triangle of foliage in an ellipsoid, denser towards its surface.
-  void AddLeaf(const Vector3d& middle, double radius, double half_height, const Vector3f& green,
+  void AddLeaf(const Vector3d& middle,
+               double radius,
+               double half_height,
+               const Vector3f& green,
                Random& random) {
     const double turn = random.Uniform(0.0, 2.0 * std::numbers::pi);
     const double z = random.Uniform(-1.0, 1.0);
@@ -88,8 +96,12 @@ class StreetLife {
                                         : Vector3f(0.08f, 0.22f, 0.12f) * shade;
     const double length = random.Uniform(3.8, 4.9);
     const bool van = random.Uniform() < 0.15;
-    const auto part = [&](double offset, double z, const Vector2d& lower, const Vector2d& upper,
-                          double height, const DetailTriangle& look) {
+    const auto part = [&](double offset,
+                          double z,
+                          const Vector2d& lower,
+                          const Vector2d& upper,
+                          double height,
+                          const DetailTriangle& look) {
       const Vector2d at = xy + offset * along;
       mesh_.AddFrustum({at.x(), at.y(), foot.z() + z}, along, lower, upper, height, look);
     };
@@ -112,16 +124,21 @@ class StreetLife {
     const auto metal = Look(Material::kPlain, Gray(0.22));
     mesh_.AddFrustum(foot, inward, {0.14, 0.14}, {0.09, 0.09}, 6.2, metal);
     const Vector2d head = xy - 0.7 * inward;
-    mesh_.AddFrustum({head.x(), head.y(), foot.z() + 6.1}, inward, {1.6, 0.16}, {1.5, 0.1}, 0.12,
-                     metal);
+    mesh_.AddFrustum(
+        {head.x(), head.y(), foot.z() + 6.1}, inward, {1.6, 0.16}, {1.5, 0.1}, 0.12, metal);
   }
 
   void AddSign(const Vector2d& xy, const Vector2d& along, Random& random) {
     const Vector3d foot = OnGround(xy);
-    mesh_.AddFrustum(foot, along, {0.07, 0.07}, {0.07, 0.07}, 2.5, Look(Material::kPlain, Gray(0.4)));
-    const Vector3f color = random.Uniform() < 0.5 ? Vector3f(0.6f, 0.05f, 0.05f)
-                                                  : Vector3f(0.05f, 0.12f, 0.5f);
-    mesh_.AddFrustum(foot + Vector3d(0.0, 0.0, 2.1), along, {0.04, 0.6}, {0.04, 0.6}, 0.6,
+    mesh_.AddFrustum(
+        foot, along, {0.07, 0.07}, {0.07, 0.07}, 2.5, Look(Material::kPlain, Gray(0.4)));
+    const Vector3f color =
+        random.Uniform() < 0.5 ? Vector3f(0.6f, 0.05f, 0.05f) : Vector3f(0.05f, 0.12f, 0.5f);
+    mesh_.AddFrustum(foot + Vector3d(0.0, 0.0, 2.1),
+                     along,
+                     {0.04, 0.6},
+                     {0.04, 0.6},
+                     0.6,
                      Look(Material::kPlain, color));
   }
 
@@ -135,9 +152,17 @@ class StreetLife {
                       static_cast<float>(random.Uniform(0.03, 0.5)));
     };
     mesh_.AddFrustum(foot, along, {0.25, 0.3}, {0.25, 0.38}, 0.85, Look(Material::kPlain, color()));
-    mesh_.AddFrustum(foot + Vector3d(0, 0, 0.85), along, {0.28, 0.42}, {0.25, 0.48}, 0.6,
+    mesh_.AddFrustum(foot + Vector3d(0, 0, 0.85),
+                     along,
+                     {0.28, 0.42},
+                     {0.25, 0.48},
+                     0.6,
                      Look(Material::kPlain, color()));
-    mesh_.AddFrustum(foot + Vector3d(0, 0, 1.5), along, {0.2, 0.17}, {0.18, 0.15}, 0.24,
+    mesh_.AddFrustum(foot + Vector3d(0, 0, 1.5),
+                     along,
+                     {0.2, 0.17},
+                     {0.18, 0.15},
+                     0.24,
                      Look(Material::kPlain, {0.5f, 0.35f, 0.27f}));
   }
 
@@ -155,7 +180,8 @@ void AddStreetLife(const Town& town, DetailMesh& mesh) {
     for (int i = 0; i < 4; ++i) life.AddAlongSide(block.curb[i], block.curb[(i + 1) % 4], random);
     const Vector2d middle = 0.25 * (block.curb[0] + block.curb[1] + block.curb[2] + block.curb[3]);
     for (int i = 0; i < 6; ++i) {
-      const Vector2d xy = middle + Vector2d(random.Uniform(-16.0, 16.0), random.Uniform(-16.0, 16.0));
+      const Vector2d xy =
+          middle + Vector2d(random.Uniform(-16.0, 16.0), random.Uniform(-16.0, 16.0));
       if (!town.InBuilding(xy, 1.5)) life.AddTree(xy, random);
     }
   }

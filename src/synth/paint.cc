@@ -106,7 +106,8 @@ Paint PaintGround(const Town& town, const Vector3f& point) {
   }
   if (inside < 0.15) return {Vector3f::Constant(0.42f), 0.0f};
   if (inside < kPavementM) {
-    const bool joint = std::fmod(std::abs(p.x()), 0.5) < 0.03 || std::fmod(std::abs(p.y()), 0.5) < 0.03;
+    const bool joint =
+        std::fmod(std::abs(p.x()), 0.5) < 0.03 || std::fmod(std::abs(p.y()), 0.5) < 0.03;
     return {Vector3f::Constant(joint ? 0.2f : 0.27f + 0.08f * grain), 0.0f};
   }
   return Yard(at);

@@ -34,7 +34,8 @@ float Hash(std::uint64_t key, int a, int b) {
 struct Style {
   explicit Style(std::uint64_t look) {
     Random random(look, 0x60);
-    plaster = kPlaster[random.Below(kPlaster.size())] * static_cast<float>(random.Uniform(0.9, 1.1));
+    plaster =
+        kPlaster[random.Below(kPlaster.size())] * static_cast<float>(random.Uniform(0.9, 1.1));
     plinth = plaster * static_cast<float>(random.Uniform(0.45, 0.7));
     trim = Vector3f::Constant(static_cast<float>(random.Uniform(0.55, 0.85)));
     spacing_m = static_cast<float>(random.Uniform(2.0, 3.2));
@@ -44,7 +45,8 @@ struct Style {
     shop = random.Uniform() < 0.25;
     cornice = random.Uniform() < 0.5;
     shutters = random.Uniform() < 0.25;
-    shutter_color = Vector3f(0.12f, static_cast<float>(random.Uniform(0.15, 0.3)),
+    shutter_color = Vector3f(0.12f,
+                             static_cast<float>(random.Uniform(0.15, 0.3)),
                              static_cast<float>(random.Uniform(0.1, 0.25)));
   }
   Vector3f plaster, plinth, trim, shutter_color;
@@ -59,8 +61,8 @@ Paint Glass(float curtain, float height_in_window) {
 }
 
 // A window around its middle; x, y relative to its lower middle [m]. Returns false outside of it.
-bool PaintWindow(const Style& style, const Vector2f& at, const Vector2f& size, float curtain,
-                 Paint& paint) {
+bool PaintWindow(
+    const Style& style, const Vector2f& at, const Vector2f& size, float curtain, Paint& paint) {
   const float border = 0.12f;
   const float half = 0.5f * size.x();
   if (std::abs(at.x()) > half + border || at.y() < -border || at.y() > size.y() + border) {

@@ -40,7 +40,8 @@ void Tangents(const Vector3f& n, Vector3f& t, Vector3f& b) {
 
 // Two uniform numbers of a sample of a pixel.
 Vector2f PixelSample(std::uint64_t pixel, std::uint64_t sample, std::uint64_t purpose) {
-  const std::uint64_t bits = MixBits(MixBits(pixel * 16 + sample) + purpose * 0x9E3779B97F4A7C15ull);
+  const std::uint64_t bits =
+      MixBits(MixBits(pixel * 16 + sample) + purpose * 0x9E3779B97F4A7C15ull);
   return {static_cast<float>(bits >> 40) * 0x1p-24f,
           static_cast<float>((bits >> 8) & 0xFFFFFF) * 0x1p-24f};
 }
@@ -131,7 +132,9 @@ struct TownRenderer::Impl {
   }
 
   // Light towards the camera along one ray.
-  Vector3f Radiance(const Vector3f& from, const Vector3f& direction, const Weather& weather,
+  Vector3f Radiance(const Vector3f& from,
+                    const Vector3f& direction,
+                    const Weather& weather,
                     const Vector2f& random) const {
     const RTCRayHit hit = Trace(from, direction);
     const Vector3f sky = SkyColor(weather, direction);
@@ -144,7 +147,8 @@ struct TownRenderer::Impl {
     const Vector3f start = point + (1e-3f + 2e-5f * distance) * normal;
     const Paint paint = PaintAt(triangle, hit.hit, point);
 
-    Vector3f light = SkyLight(weather) * (0.55f + 0.45f * normal.z()) * Openness(start, normal, random);
+    Vector3f light =
+        SkyLight(weather) * (0.55f + 0.45f * normal.z()) * Openness(start, normal, random);
     const float facing = triangle.material == Material::kLeaves
                              ? 0.5f + 0.5f * std::abs(normal.dot(weather.to_sun))
                              : normal.dot(weather.to_sun);
@@ -189,7 +193,8 @@ cv::Mat TownRenderer::Render(const CameraIntrinsics& camera,
                              const Pose& cam_from_local,
                              const Weather& weather,
                              int threads) const {
-  const Eigen::Matrix3d world_from_cam = cam_from_local.cam_from_world.conjugate().toRotationMatrix();
+  const Eigen::Matrix3d world_from_cam =
+      cam_from_local.cam_from_world.conjugate().toRotationMatrix();
   const Vector3f center = cam_from_local.center_in_world.cast<float>();
   const bool distorted = camera.HasDistortion();
   const PinholeCamera pinhole = camera.Pinhole();
@@ -202,8 +207,8 @@ cv::Mat TownRenderer::Render(const CameraIntrinsics& camera,
       for (int sample = 0; sample < 4; ++sample) {
         const Vector2f jitter = PixelSample(pixel, sample, 1);
         const Vector2d px(x + 0.5 * (sample % 2 + jitter.x()), y + 0.5 * (sample / 2 + jitter.y()));
-        const Vector3d ray = distorted ? camera.Undistort(px).homogeneous().eval()
-                                       : pinhole.RayFromImage(px);
+        const Vector3d ray =
+            distorted ? camera.Undistort(px).homogeneous().eval() : pinhole.RayFromImage(px);
         const Vector3f direction = (world_from_cam * ray).normalized().cast<float>();
         sum += impl_->Radiance(center, direction, weather, PixelSample(pixel, sample, 2));
       }

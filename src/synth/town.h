@@ -12,8 +12,8 @@
 namespace ridgeline {
 
 // A made-up town: blocks between the streets of a jittered lattice on rolling ground, with rows of
-// buildings along their sides. Everything follows from the seed and the block's place in the lattice,
-// so that a block is the same in a town of any size.
+// buildings along their sides. Everything follows from the seed and the block's place in the
+// lattice, so that a block is the same in a town of any size.
 struct TownOptions {
   int seed = 1;
   // Blocks in each direction; a block has about 8 buildings.
@@ -41,7 +41,7 @@ enum class RoofType : std::uint8_t { kFlat, kGable, kHip, kPyramid, kShed };
 // ridge of gable and hip roofs runs along x, or along y; sheds rise along y, or along x.
 struct TownBuilding {
   std::string id;
-  int parent = -1;  // index of the building this is a part of
+  int parent = -1;                                   // index of the building this is a part of
   Eigen::Vector2d center = Eigen::Vector2d::Zero();  // local frame [m]
   double direction_rad = 0.0;                        // of x, counter-clockwise from east
   double length_m = 0.0;                             // along x
@@ -68,7 +68,7 @@ struct Town {
   TownOptions options;
   int epsg = 25832;
   Eigen::Vector3d origin_in_world{654000.0, 5412000.0, 400.0};  // local = world - origin
-  std::vector<TownBlock> blocks;  // row-major from the south-west
+  std::vector<TownBlock> blocks;                                // row-major from the south-west
   std::vector<TownBuilding> buildings;
 
   // Terrain height in the local frame [m]; defined everywhere.
@@ -88,7 +88,8 @@ inline constexpr double kPavementM = 2.6;
 // The whole town.
 Town MakeTown(const TownOptions& options);
 
-// The part of the town in the blocks [column, column_end) x [row, row_end): for tiles of large towns.
+// The part of the town in the blocks [column, column_end) x [row, row_end): for tiles of large
+// towns.
 Town MakeTownPart(const TownOptions& options, int column, int row, int column_end, int row_end);
 
 }  // namespace ridgeline

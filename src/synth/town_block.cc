@@ -72,9 +72,9 @@ class BlockBuilder {
                                           town.Crossing(column + 1, row),
                                           town.Crossing(column + 1, row + 1),
                                           town.Crossing(column, row + 1)};
-    curb_ = Inset(axes,
-                  {HalfRoadM(row, 1), HalfRoadM(column + 1, 0), HalfRoadM(row + 1, 1),
-                   HalfRoadM(column, 0)});
+    curb_ = Inset(
+        axes,
+        {HalfRoadM(row, 1), HalfRoadM(column + 1, 0), HalfRoadM(row + 1, 1), HalfRoadM(column, 0)});
     front_ = Inset(curb_, {kPavementM, kPavementM, kPavementM, kPavementM});
   }
 
@@ -110,8 +110,8 @@ class BlockBuilder {
       building.direction_rad = std::atan2(along.y(), along.x());
       building.center = start + (at + 0.5 * building.length_m) * along +
                         (back + 0.5 * building.depth_m) * Left(along);
-      at += building.length_m + (terraced && random_.Uniform() < 0.85 ? 0.0
-                                                                      : random_.Uniform(2.5, 7.0));
+      at += building.length_m +
+            (terraced && random_.Uniform() < 0.85 ? 0.0 : random_.Uniform(2.5, 7.0));
       PutOnGround(building);
       if (Add(building) && random_.Uniform() < 0.3) AddAnnex();
     }
@@ -176,8 +176,9 @@ class BlockBuilder {
     annex.parent = parent;
     annex.length_m = main.length_m * random_.Uniform(0.4, 0.8);
     annex.depth_m = random_.Uniform(3.0, 6.0);
-    annex.center = main.center + 0.5 * (main.depth_m + annex.depth_m) * Left(along) +
-                   0.5 * (main.length_m - annex.length_m) * (random_.Uniform() < 0.5 ? -1 : 1) * along;
+    annex.center =
+        main.center + 0.5 * (main.depth_m + annex.depth_m) * Left(along) +
+        0.5 * (main.length_m - annex.length_m) * (random_.Uniform() < 0.5 ? -1 : 1) * along;
     annex.storeys = 1;
     annex.roof = RoofType::kFlat;
     PutOnGround(annex);

@@ -45,7 +45,9 @@ Json PositionJson(const Vector3d& world) {
 
 class DatasetWriter {
  public:
-  DatasetWriter(const TownDatasetOptions& options, fs::path folder, int threads,
+  DatasetWriter(const TownDatasetOptions& options,
+                fs::path folder,
+                int threads,
                 const FileProgress& progress)
       : options_(options), folder_(std::move(folder)), threads_(threads), progress_(progress) {
     const TownOptions& town = options.town;
@@ -102,8 +104,8 @@ class DatasetWriter {
     frame.blocks.push_back(last.blocks.front());
     const double cells = (o.block_m * o.blocks_east) * (o.block_m * o.blocks_north);
     const double spacing_m = std::max(1.0, std::ceil(std::sqrt(cells / kMaxDtmCells)));
-    WriteDtm(frame, TownTerrain(frame, kDtmMarginM + 0.2 * o.block_m, spacing_m),
-             folder_ / "dtm.tif");
+    WriteDtm(
+        frame, TownTerrain(frame, kDtmMarginM + 0.2 * o.block_m, spacing_m), folder_ / "dtm.tif");
     FileDone();
   }
 
@@ -145,28 +147,31 @@ class DatasetWriter {
     std::vector<uchar> jpeg;
     cv::imencode(".jpg", photo, jpeg, {cv::IMWRITE_JPEG_QUALITY, options_.jpeg_quality});
     const std::string image = "images/" + id + ".jpg";
-    WriteFileAtomically(folder_ / image,
-                        {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()});
+    WriteFileAtomically(folder_ / image, {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()});
     ++summary_.pictures;
     FileDone();
     return QueryJson(town, kind, id, image, view);
   }
 
-  Json QueryJson(const Town& town, ViewKind kind, const std::string& id, const std::string& image,
+  Json QueryJson(const Town& town,
+                 ViewKind kind,
+                 const std::string& id,
+                 const std::string& image,
                  const Viewpoint& view) const {
     const Eigen::Quaterniond& q = view.cam_from_local.cam_from_world;
-    return {{"id", id},
-            {"set", ViewKindName(kind)},
-            {"image", image},
-            {"camera",
-             {{"model", view.camera.model},
-              {"width", view.camera.width},
-              {"height", view.camera.height},
-              {"params", view.camera.params}}},
-            {"prior", PriorJson(town, kind, id, view.cam_from_local)},
-            {"truth",
-             {{"position", PositionJson(town.origin_in_world + view.cam_from_local.center_in_world)},
-              {"cam_from_world_wxyz", {q.w(), q.x(), q.y(), q.z()}}}}};
+    return {
+        {"id", id},
+        {"set", ViewKindName(kind)},
+        {"image", image},
+        {"camera",
+         {{"model", view.camera.model},
+          {"width", view.camera.width},
+          {"height", view.camera.height},
+          {"params", view.camera.params}}},
+        {"prior", PriorJson(town, kind, id, view.cam_from_local)},
+        {"truth",
+         {{"position", PositionJson(town.origin_in_world + view.cam_from_local.center_in_world)},
+          {"cam_from_world_wxyz", {q.w(), q.x(), q.y(), q.z()}}}}};
   }
 
   Json PriorJson(const Town& town, ViewKind kind, const std::string& id, const Pose& truth) const {
@@ -179,8 +184,8 @@ class DatasetWriter {
       xy = truth.center_in_world.head<2>() + Vector2d(east, north);
     } while (town.InBuilding(xy, 0.2));
     const ViewAngles angles = ViewAnglesOf(truth.cam_from_world);
-    const double heading =
-        angles.heading_deg + random.Uniform(-options_.prior_heading_deg, options_.prior_heading_deg);
+    const double heading = angles.heading_deg +
+                           random.Uniform(-options_.prior_heading_deg, options_.prior_heading_deg);
     const double tilt = options_.prior_tilt_deg;
     const double pitch = angles.pitch_deg + random.Uniform(-tilt, tilt);
     const double roll = angles.roll_deg + random.Uniform(-tilt, tilt);
@@ -216,13 +221,15 @@ void TownDatasetOptions::Validate() const {
   Require(height >= 64 && height <= 10000, "height", height, "64 to 10000 px");
   Require(jpeg_quality >= 1 && jpeg_quality <= 100, "jpeg_quality", jpeg_quality, "1 to 100");
   Require(overhang_m >= 0.0 && overhang_m <= 1.5, "overhang_m", overhang_m, "0 to 1.5 m");
-  Require(survey_sigma_m >= 0.0 && survey_sigma_m <= 2.0, "survey_sigma_m", survey_sigma_m,
-          "0 to 2 m");
+  Require(
+      survey_sigma_m >= 0.0 && survey_sigma_m <= 2.0, "survey_sigma_m", survey_sigma_m, "0 to 2 m");
   Require(prior_m >= 0.0 && prior_m <= 1000.0, "prior_m", prior_m, "0 to 1000 m");
-  Require(prior_heading_deg >= 0.0 && prior_heading_deg <= 180.0, "prior_heading_deg",
-          prior_heading_deg, "0 to 180");
-  Require(prior_tilt_deg >= 0.0 && prior_tilt_deg <= 30.0, "prior_tilt_deg", prior_tilt_deg,
-          "0 to 30");
+  Require(prior_heading_deg >= 0.0 && prior_heading_deg <= 180.0,
+          "prior_heading_deg",
+          prior_heading_deg,
+          "0 to 180");
+  Require(
+      prior_tilt_deg >= 0.0 && prior_tilt_deg <= 30.0, "prior_tilt_deg", prior_tilt_deg, "0 to 30");
 }
 
 TownDatasetSummary WriteTownDataset(const TownDatasetOptions& options,

@@ -58,10 +58,10 @@ struct TownDatasetSummary {
 // Called after each file: files done, files in all.
 using FileProgress = std::function<void(std::size_t, std::size_t)>;
 
-// Writes a town as a dataset (docs/dataset.md) into the existing folder `folder`: city.gml or, beyond
-// 36 blocks, city/tile_*.gml; dtm.tif; images/*.jpg and dataset.json if there are pictures. Pictures
-// of large towns are taken in their middle. Priors are outside buildings and, apart from that, drawn
-// uniformly around the truth. Same files for the same options on any number of threads.
+// Writes a town as a dataset (docs/dataset.md) into the existing folder `folder`: city.gml or,
+// beyond 36 blocks, city/tile_*.gml; dtm.tif; images/*.jpg and dataset.json if there are pictures.
+// Pictures of large towns are taken in their middle. Priors are outside buildings and, apart from
+// that, drawn uniformly around the truth. Same files for the same options on any number of threads.
 TownDatasetSummary WriteTownDataset(const TownDatasetOptions& options,
                                     const std::filesystem::path& folder,
                                     int threads,

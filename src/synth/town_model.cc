@@ -22,8 +22,8 @@ class VertexWelder {
   explicit VertexWelder(std::vector<Vector3d>& vertices) : vertices_(vertices) {}
 
   std::uint32_t Index(const Vector3d& p) {
-    const auto key = std::tuple(
-        std::llround(p.x() * 1e4), std::llround(p.y() * 1e4), std::llround(p.z() * 1e4));
+    const auto key =
+        std::tuple(std::llround(p.x() * 1e4), std::llround(p.y() * 1e4), std::llround(p.z() * 1e4));
     const auto [it, added] = index_.emplace(key, static_cast<std::uint32_t>(vertices_.size()));
     if (added) vertices_.push_back(p);
     return it->second;

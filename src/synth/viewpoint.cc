@@ -45,9 +45,10 @@ Viewpoint Draw(const Town& town, ViewKind kind, int width, int height, Random& r
   ViewAngles angles;
   // Mostly along the street, sometimes across it; drones look anywhere.
   const bool lengthwise = random.Uniform() < 0.65;
-  angles.heading_deg = drone        ? random.Uniform(0.0, 360.0)
-                       : lengthwise ? street_deg + 180.0 * random.Below(2) + random.Uniform(-35.0, 35.0)
-                                    : street_deg + 90.0 + random.Uniform(-40.0, 40.0);
+  angles.heading_deg = drone ? random.Uniform(0.0, 360.0)
+                       : lengthwise
+                           ? street_deg + 180.0 * random.Below(2) + random.Uniform(-35.0, 35.0)
+                           : street_deg + 90.0 + random.Uniform(-40.0, 40.0);
   angles.heading_deg = WrapHeadingDeg(angles.heading_deg);
   double above_m = random.Uniform(1.6, 1.8);
   switch (kind) {
@@ -67,8 +68,8 @@ Viewpoint Draw(const Town& town, ViewKind kind, int width, int height, Random& r
       break;
   }
   if (kind == ViewKind::kPortrait) std::swap(width, height);
-  const double hfov_deg = kind == ViewKind::kPortrait ? random.Uniform(48.0, 56.0)
-                                                      : random.Uniform(55.0, 68.0);
+  const double hfov_deg =
+      kind == ViewKind::kPortrait ? random.Uniform(48.0, 56.0) : random.Uniform(55.0, 68.0);
   Viewpoint view;
   view.camera = DrawCamera(width, height, hfov_deg, random);
   view.cam_from_local.cam_from_world = CamFromWorld(angles);

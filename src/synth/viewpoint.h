@@ -22,9 +22,9 @@ struct Viewpoint {
   Pose cam_from_local;
 };
 
-// A place where somebody would take a photo: on a street 1.6 to 1.8 m above the ground, or 40 to 60 m
-// up for a drone, outside buildings, with a fair share of buildings in view and nothing right before
-// the lens. Tries again until a view is good. Portrait views turn width and height.
+// A place where somebody would take a photo: on a street 1.6 to 1.8 m above the ground, or 40 to 60
+// m up for a drone, outside buildings, with a fair share of buildings in view and nothing right
+// before the lens. Tries again until a view is good. Portrait views turn width and height.
 Viewpoint DrawViewpoint(const Town& town,
                         const TownRenderer& renderer,
                         ViewKind kind,

@@ -21,7 +21,8 @@ Weather DrawWeather(Random& random) {
                             static_cast<float>(std::sin(elevation)));
   const bool sunny = random.Uniform() < 0.67;
   weather.sun = sunny ? static_cast<float>(random.Uniform(0.7, 1.0)) : 0.0f;
-  weather.cloud_cover = static_cast<float>(sunny ? random.Uniform(0.0, 0.55) : random.Uniform(0.85, 1.0));
+  weather.cloud_cover =
+      static_cast<float>(sunny ? random.Uniform(0.0, 0.55) : random.Uniform(0.85, 1.0));
   weather.key = random.Next();
   return weather;
 }

@@ -77,20 +77,22 @@ class Writer {
         upper = upper.cwiseMax(Vector3d(corner.x(), corner.y(), b.ridge_m));
       }
     }
-    out_ += "<gml:boundedBy><gml:Envelope srsName=\"urn:adv:crs:ETRS89_UTM32*DE_DHHN2016_NH\" "
-            "srsDimension=\"3\"><gml:lowerCorner>" +
-            Coordinates(lower) + "</gml:lowerCorner><gml:upperCorner>" + Coordinates(upper) +
-            "</gml:upperCorner></gml:Envelope></gml:boundedBy>\n";
+    out_ +=
+        "<gml:boundedBy><gml:Envelope srsName=\"urn:adv:crs:ETRS89_UTM32*DE_DHHN2016_NH\" "
+        "srsDimension=\"3\"><gml:lowerCorner>" +
+        Coordinates(lower) + "</gml:lowerCorner><gml:upperCorner>" + Coordinates(upper) +
+        "</gml:upperCorner></gml:Envelope></gml:boundedBy>\n";
   }
 
   void WriteBuilding(std::size_t index) {
     const TownBuilding& building = town_.buildings[index];
     out_ += "<core:cityObjectMember>\n<bldg:Building gml:id=\"" + building.id + "\">\n";
-    out_ += "<core:creationDate>2024-01-01</core:creationDate>\n"
-            "<core:externalReference><core:informationSystem>"
-            "http://repository.gdi-de.org/schemas/adv/citygml/fdv/art.htm#_9100"
-            "</core:informationSystem><core:externalObject><core:name>" +
-            building.id + "</core:name></core:externalObject></core:externalReference>\n";
+    out_ +=
+        "<core:creationDate>2024-01-01</core:creationDate>\n"
+        "<core:externalReference><core:informationSystem>"
+        "http://repository.gdi-de.org/schemas/adv/citygml/fdv/art.htm#_9100"
+        "</core:informationSystem><core:externalObject><core:name>" +
+        building.id + "</core:name></core:externalObject></core:externalReference>\n";
     WriteGeometry(building);
     for (const TownBuilding& part : town_.buildings) {
       if (part.parent != static_cast<int>(index)) continue;

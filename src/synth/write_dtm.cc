@@ -24,13 +24,13 @@ void WriteDtm(const Town& town, const HeightGrid& grid, const std::filesystem::p
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
   const std::array<const char*, 4> creation = {
       "COMPRESS=DEFLATE", "PREDICTOR=3", "TILED=YES", nullptr};
-  std::unique_ptr<GDALDataset, CloseDataset> dataset(driver->Create(temporary.c_str(),
-                                                                    grid.columns,
-                                                                    grid.rows,
-                                                                    1,
-                                                                    GDT_Float32,
-                                                                    const_cast<char**>(
-                                                                        creation.data())));
+  std::unique_ptr<GDALDataset, CloseDataset> dataset(
+      driver->Create(temporary.c_str(),
+                     grid.columns,
+                     grid.rows,
+                     1,
+                     GDT_Float32,
+                     const_cast<char**>(creation.data())));
   if (!dataset) throw InputError(path.string(), "", CPLGetLastErrorMsg(), "a writable GeoTIFF");
 
   const double top = grid.first.y() + (grid.rows - 1) * grid.spacing_m;

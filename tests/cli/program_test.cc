@@ -57,8 +57,10 @@ std::string Quoted(const fs::path& path) { return "'" + path.string() + "'"; }
 const fs::path& Town() {
   static const fs::path town = [] {
     const fs::path folder = Scratch("town") / "town";
-    Ridgeline("synth --quiet --queries 1 --tilted 0 --portrait 0 --drone 0 --size 320x240 "
-        "--set town.blocks_east=2 --set town.blocks_north=2 --out " + Quoted(folder));
+    Ridgeline(
+        "synth --quiet --queries 1 --tilted 0 --portrait 0 --drone 0 --size 320x240 "
+        "--set town.blocks_east=2 --set town.blocks_north=2 --out " +
+        Quoted(folder));
     return folder;
   }();
   return town;
@@ -137,7 +139,13 @@ TEST(Synth, LeavesNothingBehindWhenInterrupted) {
   const pid_t child = ::fork();
   if (child == 0) {
     if (std::freopen("/dev/null", "w", stderr) == nullptr) ::_exit(98);
-    ::execl(RIDGELINE_PROGRAM, "ridgeline", "synth", "--queries", "200", "--out", out.c_str(),
+    ::execl(RIDGELINE_PROGRAM,
+            "ridgeline",
+            "synth",
+            "--queries",
+            "200",
+            "--out",
+            out.c_str(),
             static_cast<char*>(nullptr));
     ::_exit(99);
   }
@@ -155,9 +163,9 @@ TEST(Synth, LeavesNothingBehindWhenInterrupted) {
 
 TEST(Render, WritesWhatWasAskedFor) {
   const fs::path folder = Scratch("render");
-  const Outcome outcome =
-      Ridgeline("render --json --dataset " + Quoted(Town() / "dataset.json") + " --query street_000 --out " +
-          Quoted(folder / "edges.svg") + " --depth " + Quoted(folder / "depth.png"));
+  const Outcome outcome = Ridgeline("render --json --dataset " + Quoted(Town() / "dataset.json") +
+                                    " --query street_000 --out " + Quoted(folder / "edges.svg") +
+                                    " --depth " + Quoted(folder / "depth.png"));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_TRUE(fs::exists(folder / "edges.svg"));
   EXPECT_TRUE(fs::exists(folder / "depth.png"));
@@ -165,14 +173,14 @@ TEST(Render, WritesWhatWasAskedFor) {
 
 TEST(Render, MistypedQueryNamesTheNearest) {
   const Outcome outcome = Ridgeline("render --dataset " + Quoted(Town() / "dataset.json") +
-                              " --query stret_000 --out x.png");
+                                    " --query stret_000 --out x.png");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.text, HasSubstr("street_000"));
 }
 
 TEST(Render, SaysWhatAPoseIs) {
   const Outcome outcome = Ridgeline("render --dataset " + Quoted(Town() / "dataset.json") +
-                              " --query street_000 --pose 1,2,3 --out x.png");
+                                    " --query street_000 --pose 1,2,3 --out x.png");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.text, HasSubstr("east,north,height,heading,pitch,roll"));
 }
@@ -181,9 +189,10 @@ TEST(Completion, ShellsAcceptTheScripts) {
   const fs::path folder = Scratch("completion");
   EXPECT_EQ(Ridgeline("completion bash > " + Quoted(folder / "bash")).exit_code, 0);
   EXPECT_EQ(std::system(("bash -n " + Quoted(folder / "bash")).c_str()), 0);
-  const std::string ask = "bash -c 'source \"$0\"; COMP_WORDS=(ridgeline render --at \"\"); "
-                          "COMP_CWORD=3; _ridgeline; echo ${COMPREPLY[@]}' " +
-                          Quoted(folder / "bash") + " > " + Quoted(folder / "reply");
+  const std::string ask =
+      "bash -c 'source \"$0\"; COMP_WORDS=(ridgeline render --at \"\"); "
+      "COMP_CWORD=3; _ridgeline; echo ${COMPREPLY[@]}' " +
+      Quoted(folder / "bash") + " > " + Quoted(folder / "reply");
   EXPECT_EQ(std::system(ask.c_str()), 0);
   std::ifstream reply(folder / "reply");
   std::string words;

@@ -60,12 +60,15 @@ ReportHillshade Hillshade() {
 ReportRun Run(int index) {
   Random random(1, 2, static_cast<std::uint64_t>(index));
   ReportRun run;
-  run.id = index == 0 ? "Straße \"1\" <script>alert(1)</script>'s.jpg" : "query " + std::to_string(index);
+  run.id = index == 0 ? "Straße \"1\" <script>alert(1)</script>'s.jpg"
+                      : "query " + std::to_string(index);
   run.set = index % 2 == 0 ? "street" : "drone & co";
   run.photo = index;
   run.truth = ReportPose{kPlace, 112.0, 0.4, -0.2};
   run.prior = ReportPose{kPlace + Vector3d(random.Uniform(-9, 9), random.Uniform(-9, 9), 0.3),
-                         112.0 + random.Uniform(-20, 20), 0.0, 0.0};
+                         112.0 + random.Uniform(-20, 20),
+                         0.0,
+                         0.0};
   const double error = index % 5 == 3 ? random.Uniform(3, 12) : random.Uniform(0.05, 1.2);
   run.result = ReportPose{kPlace + Vector3d(error, 0.1, 0.0), 112.3, 0.4, -0.2};
   run.outcome = index % 5 == 3 ? ReportOutcome::kWrong : ReportOutcome::kRight;
@@ -80,18 +83,23 @@ ReportRun Run(int index) {
     run.rotation_deg = 0.3;
   }
   run.energy = 0.3 + 0.03 * error + random.Uniform(0.0, 0.05);
-  run.confidence = run.outcome == ReportOutcome::kRight ? random.Uniform(0.6, 1.0)
-                                                        : random.Uniform(0.1, 0.7);
+  run.confidence =
+      run.outcome == ReportOutcome::kRight ? random.Uniform(0.6, 1.0) : random.Uniform(0.1, 0.7);
   run.position_covariance = Eigen::Matrix2d{{0.2, 0.1}, {0.1, 0.4}};
   run.modes = {{run.result.value_or(*run.prior), run.energy},
                {ReportPose{kPlace + Vector3d(-5, 4, 0), 100.0, 0, 0}, run.energy + 0.02}};
   run.map = Map(kPlace.head<2>() + Vector2d(error, 0.1));
   run.hillshade = Hillshade();
-  run.footprints = {{kPlace.head<2>() + Vector2d(3, 3), kPlace.head<2>() + Vector2d(9, 3),
-                     kPlace.head<2>() + Vector2d(9, 8), kPlace.head<2>() + Vector2d(3, 8)}};
+  run.footprints = {{kPlace.head<2>() + Vector2d(3, 3),
+                     kPlace.head<2>() + Vector2d(9, 3),
+                     kPlace.head<2>() + Vector2d(9, 8),
+                     kPlace.head<2>() + Vector2d(3, 8)}};
   const Vector2d box = run.prior->position.head<2>();
-  run.search_box = {box + Vector2d(-10, -10), box + Vector2d(10, -10), box + Vector2d(10, 10),
-                    box + Vector2d(-10, 10), box + Vector2d(-10, -10)};
+  run.search_box = {box + Vector2d(-10, -10),
+                    box + Vector2d(10, -10),
+                    box + Vector2d(10, 10),
+                    box + Vector2d(-10, 10),
+                    box + Vector2d(-10, -10)};
   const float shift = 17.0f * static_cast<float>(index % 7);
   run.prior_layers = {House("prior", {225, 225, 225}, shift + 55.0f)};
   run.result_layers = {House("against the sky", {0, 220, 255}, shift + 2.0f)};
@@ -110,8 +118,10 @@ ReportData ExampleReport(int runs) {
   data.command = "ridgeline bench 'a folder/dataset.json' --out out";
   data.version = "ridgeline test";
   data.crs = "EPSG:25832";
-  data.facts = {{"photos", std::to_string(runs)}, {"median error", "0.42 m, 0.3°"},
-                {"time per photo", "0.9 s"}, {"evaluations", "14 000 /s"}};
+  data.facts = {{"photos", std::to_string(runs)},
+                {"median error", "0.42 m, 0.3°"},
+                {"time per photo", "0.9 s"},
+                {"evaluations", "14 000 /s"}};
   for (int i = 0; i < runs; ++i) {
     data.photos.push_back({"photo " + std::to_string(i), Photo(i)});
     data.runs.push_back(Run(i));
@@ -123,7 +133,8 @@ ReportData ExampleReport(int runs) {
   plot.y_label = "energy";
   plot.series = {{"line_energy", {-2, -1, 0, 1, 2}, {0.9, 0.7, 0.5, 0.6, 0.8}, {}, true}};
   data.plots.push_back(plot);
-  data.tables.push_back({"Recall", {"limit", "recall"}, {{"2 m, 2°", "81 %"}, {"5 m, 5°", "90 %"}}});
+  data.tables.push_back(
+      {"Recall", {"limit", "recall"}, {{"2 m, 2°", "81 %"}, {"5 m, 5°", "90 %"}}});
   data.warnings = {"3 polygons without area dropped (<b>obj</b>)"};
   data.options_json = "{\n  \"search\": {\"east_m\": 10}\n}";
   return data;

@@ -25,9 +25,7 @@ struct CloseDataset {
 };
 using DatasetPtr = std::unique_ptr<GDALDataset, CloseDataset>;
 
-DatasetPtr Open(const fs::path& path) {
-  return DatasetPtr(GDALDataset::Open(path.c_str()));
-}
+DatasetPtr Open(const fs::path& path) { return DatasetPtr(GDALDataset::Open(path.c_str())); }
 
 fs::path Temp(const std::string& name) { return fs::path(::testing::TempDir()) / name; }
 
@@ -103,8 +101,8 @@ TEST(WriteEnergyMap, PixelCentresAreThePositions) {
   EXPECT_DOUBLE_EQ(transform[3], 5335930.75);
   EXPECT_STREQ(dataset->GetSpatialRef()->GetAuthorityCode(nullptr), "25832");
   std::array<float, 6> values{};
-  ASSERT_EQ(dataset->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, 3, 2, values.data(), 3, 2,
-                                                GDT_Float32, 0, 0),
+  ASSERT_EQ(dataset->GetRasterBand(1)->RasterIO(
+                GF_Read, 0, 0, 3, 2, values.data(), 3, 2, GDT_Float32, 0, 0),
             CE_None);
   EXPECT_FLOAT_EQ(values[3], 0.1f);  // lower left
   EXPECT_FLOAT_EQ(values[0], 0.4f);

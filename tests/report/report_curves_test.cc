@@ -17,7 +17,8 @@ ReportRun MakeRun(const std::string& id, double translation_m, double confidence
 }
 
 TEST(RecallCurve, CountsAbstainedRunsAsMisses) {
-  std::vector<ReportRun> runs = {MakeRun("a", 0.1, 0.9), MakeRun("b", 4.0, 0.2), MakeRun("c", 0.1, 0.9)};
+  std::vector<ReportRun> runs = {
+      MakeRun("a", 0.1, 0.9), MakeRun("b", 4.0, 0.2), MakeRun("c", 0.1, 0.9)};
   runs[2].outcome = ReportOutcome::kAbstained;
   const auto curve = RecallCurve(runs);
   ASSERT_EQ(curve.size(), 40u);
@@ -42,7 +43,9 @@ TEST(WilsonShare, MatchesTheTextbook) {
 }
 
 TEST(Reliability, PutsRunsIntoBinsOfConfidence) {
-  const std::vector<ReportRun> runs = {MakeRun("a", 0.1, 0.95), MakeRun("b", 3.0, 0.91), MakeRun("c", 3.0, 0.1),
+  const std::vector<ReportRun> runs = {MakeRun("a", 0.1, 0.95),
+                                       MakeRun("b", 3.0, 0.91),
+                                       MakeRun("c", 3.0, 0.1),
                                        MakeRun("d", 0.2, 1.0)};
   const auto bins = Reliability(runs, 10);
   ASSERT_EQ(bins.size(), 2u);

@@ -116,8 +116,8 @@ TEST(TownDataset, PortraitsAreUpright) {
   }
 }
 
-// The picture and the model agree: where the model (without survey errors and overhang) has sky, the
-// picture is as bright as its sky, and at the skyline below it something else begins.
+// The picture and the model agree: where the model (without survey errors and overhang) has sky,
+// the picture is as bright as its sky, and at the skyline below it something else begins.
 TEST(TownDataset, PictureShowsTheModelAtItsPose) {
   TownDatasetOptions options = SmallOptions();
   options.portrait = options.drone = 0;
@@ -135,8 +135,8 @@ TEST(TownDataset, PictureShowsTheModelAtItsPose) {
   pose.center_in_world -= model.origin_in_world;
   const ViewBuffers view = scene.Render(query.camera->Pinhole(), pose);
   const cv::Mat picture = cv::imread(query.image.string());
-  // Blue minus red separates sky and plaster in this picture; the share of pixels on the right side of
-  // the threshold must be far above chance on both sides of the model's outline.
+  // Blue minus red separates sky and plaster in this picture; the share of pixels on the right side
+  // of the threshold must be far above chance on both sides of the model's outline.
   double sky = 0.0, sky_bright = 0.0, wall = 0.0, wall_bright = 0.0;
   for (int y = 0; y < picture.rows; ++y) {
     for (int x = 0; x < picture.cols; ++x) {

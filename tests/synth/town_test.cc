@@ -31,8 +31,8 @@ TEST(Town, IdsAreUniqueAndPartsFollowTheirBuilding) {
   }
 }
 
-// Independent of the separating axes in the generator: points of each footprint, shrunk by 3 cm, are in
-// no other building.
+// Independent of the separating axes in the generator: points of each footprint, shrunk by 3 cm,
+// are in no other building.
 TEST(Town, BuildingsDoNotOverlap) {
   const Town town = MakeTown(TownOptions{});
   for (const TownBuilding& building : town.buildings) {
@@ -82,7 +82,8 @@ TEST(Town, BaseIsBelowTheGroundAndFloorAboveIt) {
 TEST(TownTerrain, GridHoldsTheHeightsOfTheTown) {
   const Town town = MakeTown(TownOptions{});
   const HeightGrid grid = TownTerrain(town, 20.0);
-  for (const auto& [column, row] : {std::pair{0, 0}, {100, 57}, {grid.columns - 1, grid.rows - 1}}) {
+  for (const auto& [column, row] :
+       {std::pair{0, 0}, {100, 57}, {grid.columns - 1, grid.rows - 1}}) {
     const Vector2d xy = grid.first + Vector2d(column, row);
     EXPECT_NEAR(grid.heights[static_cast<std::size_t>(row) * grid.columns + column],
                 town.TerrainHeight(xy),
@@ -110,8 +111,7 @@ TEST(SurveyedTown, MovesPartsWithTheirBuilding) {
     sum += moved.squaredNorm();
     const int parent = town.buildings[i].parent;
     if (parent < 0) continue;
-    const Vector2d parent_moved =
-        surveyed.buildings[parent].center - town.buildings[parent].center;
+    const Vector2d parent_moved = surveyed.buildings[parent].center - town.buildings[parent].center;
     EXPECT_NEAR((moved - parent_moved).norm(), 0.0, 1e-9);
   }
   // Two coordinates of variance 0.01; about 150 buildings.
