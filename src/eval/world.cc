@@ -16,6 +16,10 @@ World ReadWorld(const std::vector<std::filesystem::path>& model,
   World world;
   CityOptions options;
   options.project_to = crs;
+  if (!places.isEmpty()) {
+    options.region.emplace();
+    options.region->positions = places;
+  }
   world.model = ReadCity(model, options);
   world.warnings = world.model.warnings;
   if (!dtm) return world;

@@ -45,7 +45,7 @@ Outcome Ridgeline(const std::string& arguments) {
 }
 
 fs::path Scratch(const std::string& name) {
-  const fs::path folder = fs::path(::testing::TempDir()) / ("ridgeline cli " + name);
+  const fs::path folder = fs::path(::testing::TempDir()) / ("ridgeline cli " + name + " " + std::to_string(::getpid()));
   fs::remove_all(folder);
   fs::create_directories(folder);
   return folder;

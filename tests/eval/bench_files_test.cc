@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
@@ -36,7 +37,8 @@ TEST(ResultsCsv, QuotesNamesAndLeavesUnknownFieldsEmpty) {
 TEST(PosesCsv, OwnResultsAreReadBack) {
   RunRecord run = Answer();
   run.query = "q";
-  const auto path = std::filesystem::path(testing::TempDir()) / "ridgeline_poses.csv";
+  const auto path = std::filesystem::path(testing::TempDir()) /
+                    ("ridgeline_poses_" + std::to_string(::getpid()) + ".csv");
   WriteFileAtomically(path, ResultsCsv(std::vector<RunRecord>{run}));
   const auto poses = ReadPosesCsv(path);
   ASSERT_EQ(poses.count("q"), 1u);
@@ -46,7 +48,8 @@ TEST(PosesCsv, OwnResultsAreReadBack) {
 }
 
 TEST(PosesCsv, BadFilesAreNamed) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "ridgeline_poses.csv";
+  const auto path = std::filesystem::path(testing::TempDir()) /
+                    ("ridgeline_poses_" + std::to_string(::getpid()) + ".csv");
   for (const char* bad : {"query,e,n\n", "query,e,n,h,qw,qx,qy,qz\n",
                           "query,e,n,h,qw,qx,qy,qz\na,1,2,x,1,0,0,0\n"}) {
     WriteFileAtomically(path, bad);

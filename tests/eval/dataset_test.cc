@@ -2,6 +2,7 @@
 #include "eval/dataset.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 
@@ -21,7 +22,8 @@ constexpr const char* kGood = R"({
 })";
 
 std::filesystem::path Write(const std::string& text) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "ridgeline_dataset.json";
+  const auto path = std::filesystem::path(testing::TempDir()) /
+                    ("ridgeline_dataset_" + std::to_string(::getpid()) + ".json");
   WriteFileAtomically(path, text);
   return path;
 }

@@ -2,6 +2,7 @@
 #include "lines/segments_file.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
@@ -11,7 +12,8 @@ namespace {
 
 std::filesystem::path Write(const std::string& text) {
   const std::filesystem::path path =
-      std::filesystem::path(testing::TempDir()) / "ridgeline_segments.txt";
+      std::filesystem::path(testing::TempDir()) /
+      ("ridgeline_segments_" + std::to_string(::getpid()) + ".txt");
   WriteFileAtomically(path, text);
   return path;
 }

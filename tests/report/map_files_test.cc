@@ -4,6 +4,7 @@
 #include <gdal_priv.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 #include <ogrsf_frmts.h>
 
 #include <array>
@@ -27,7 +28,7 @@ using DatasetPtr = std::unique_ptr<GDALDataset, CloseDataset>;
 
 DatasetPtr Open(const fs::path& path) { return DatasetPtr(GDALDataset::Open(path.c_str())); }
 
-fs::path Temp(const std::string& name) { return fs::path(::testing::TempDir()) / name; }
+fs::path Temp(const std::string& name) { return fs::path(::testing::TempDir()) / (std::to_string(::getpid()) + name); }
 
 TEST(WriteMap, GeoPackageHasALayerPerKindInTheModelsSystem) {
   const ReportData data = testing::ExampleReport(6);

@@ -2,6 +2,7 @@
 #include "synth/town_dataset.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
@@ -32,7 +33,7 @@ TownDatasetOptions SmallOptions() {
 }
 
 fs::path Write(const std::string& name, const TownDatasetOptions& options, int threads) {
-  const fs::path folder = fs::path(::testing::TempDir()) / ("town_dataset_" + name);
+  const fs::path folder = fs::path(::testing::TempDir()) / ("town_dataset_" + name + "_" + std::to_string(::getpid()));
   fs::remove_all(folder);
   fs::create_directories(folder);
   WriteTownDataset(options, folder, threads, [](std::size_t, std::size_t) {});
