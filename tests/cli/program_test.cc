@@ -44,8 +44,23 @@ Outcome Ridgeline(const std::string& arguments) {
   return outcome;
 }
 
+// A folder of this process, since ctest runs tests side by side; removed at its end.
+const fs::path& ProcessFolder() {
+  struct Folder {
+    fs::path path =
+        fs::path(::testing::TempDir()) / ("ridgeline cli " + std::to_string(::getpid()));
+    const pid_t owner = ::getpid();
+    ~Folder() {
+      std::error_code ignored;
+      if (::getpid() == owner) fs::remove_all(path, ignored);
+    }
+  };
+  static const Folder folder;
+  return folder.path;
+}
+
 fs::path Scratch(const std::string& name) {
-  const fs::path folder = fs::path(::testing::TempDir()) / ("ridgeline cli " + name + " " + std::to_string(::getpid()));
+  const fs::path folder = ProcessFolder() / name;
   fs::remove_all(folder);
   fs::create_directories(folder);
   return folder;
