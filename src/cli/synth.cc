@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Buildings of a block, parts counted with their building; a mean over many blocks.
-constexpr double kBuildingsPerBlock = 11.0;
+constexpr double kBuildingsPerBlock = 12.0;
 
 struct SynthArguments {
   std::string out;
