@@ -6,12 +6,12 @@
 
 namespace ridgeline {
 
-// Arc tangent for x in [0, 1]; error below 2e-7 in floats.
+// Arc tangent for x in [0, 1]; error below 2e-7 in floats. T: float or simd::Float4.
 // Source: Abramowitz & Stegun, Handbook of Mathematical Functions, 4.4.49.
-inline float FastAtanUpToOne(float x) {
-  const float s = x * x;
-  float p = 0.0028662257f;
-  p = p * s - 0.0161657367f;
+template <typename T>
+inline T FastAtanUpToOne(T x) {
+  const T s = x * x;
+  T p = 0.0028662257f * s - 0.0161657367f;
   p = p * s + 0.0429096138f;
   p = p * s - 0.0752896400f;
   p = p * s + 0.1065626393f;

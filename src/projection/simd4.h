@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 
 #ifdef __SSE2__
@@ -21,6 +22,14 @@ struct Vec3x4 {
 inline Float4 Splat(float value) { return Float4{value, value, value, value}; }
 inline Float4 Max(Float4 a, Float4 b) { return a > b ? a : b; }
 inline Float4 Min(Float4 a, Float4 b) { return a < b ? a : b; }
+
+inline Float4 Sqrt(Float4 v) {
+#ifdef __SSE2__
+  return reinterpret_cast<Float4>(_mm_sqrt_ps(reinterpret_cast<__m128>(v)));
+#else
+  return Float4{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
+#endif
+}
 
 // Bit k is set where comparison k holds.
 inline unsigned Bits(Int4 comparison) {

@@ -4,19 +4,53 @@
 #include <algorithm>
 #include <numbers>
 
+#include "projection/fast_angle.h"
+
 namespace ridgeline {
 
+namespace {
+
+using simd::Float4;
+using simd::Int4;
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+// Angle of the vectors (x, y) from the x axis, x and y >= 0.
+Float4 FirstQuadrantAngle(Float4 x, Float4 y) {
+  constexpr float kTiny = 1e-30f;
+  const Float4 angle =
+      FastAtanUpToOne(simd::Min(x, y) / simd::Max(simd::Max(x, y), simd::Splat(kTiny)));
+  return y > x ? 0.5f * kPi - angle : angle;
+}
+
+// Cell of a grid whose first cell is centred on `first`; -1 before it.
+Int4 CellOf(Float4 angle, float first, float inverse_step) {
+  const Float4 place = (angle - first) * inverse_step + 0.5f;
+  return place < 0.0f ? Int4{-1, -1, -1, -1} : __builtin_convertvector(place, Int4);
+}
+
+}  // namespace
+
+Int4 SurfacePanorama::Find(const simd::Vec3x4& directions) const {
+  const auto& [east, north, height] = directions;
+  const auto inverse_step = static_cast<float>(1.0 / step);
+  Float4 azimuth = FirstQuadrantAngle(simd::Abs(north), simd::Abs(east));
+  azimuth = north < 0.0f ? kPi - azimuth : azimuth;
+  azimuth = east < 0.0f ? -azimuth : azimuth;
+  const auto first = static_cast<float>(first_azimuth);
+  azimuth = azimuth < first - static_cast<float>(0.5 * step) ? azimuth + 2.0f * kPi : azimuth;
+  const Float4 rise =
+      FirstQuadrantAngle(simd::Sqrt(east * east + north * north), simd::Abs(height));
+  const Int4 column = CellOf(azimuth, first, inverse_step);
+  const Int4 row = CellOf(
+      height < 0.0f ? -rise : rise, static_cast<float>(first_elevation), inverse_step);
+  const Int4 inside = (column >= 0) & (column < columns) & (row >= 0) & (row < rows);
+  return inside ? row * columns + column : Int4{-1, -1, -1, -1};
+}
+
 const std::uint32_t* SurfacePanorama::Find(const Eigen::Vector3f& direction) const {
-  constexpr double kTurn = 2.0 * std::numbers::pi;
-  const float horizontal = std::hypot(direction.x(), direction.y());
-  double azimuth = std::atan2(direction.x(), direction.y()) - (first_azimuth - 0.5 * step);
-  if (azimuth < 0.0) azimuth += kTurn;
-  if (azimuth >= kTurn) azimuth -= kTurn;
-  const int column = static_cast<int>(azimuth / step);
-  const double elevation = std::atan2(direction.z(), horizontal) - (first_elevation - 0.5 * step);
-  const int row = static_cast<int>(std::floor(elevation / step));
-  if (column >= columns || row < 0 || row >= rows) return nullptr;
-  return &surfaces[static_cast<std::size_t>(row) * columns + column];
+  const std::int32_t cell = Find(simd::Splat(direction))[0];
+  return cell < 0 ? nullptr : &surfaces[static_cast<std::size_t>(cell)];
 }
 
 SurfacePanorama SurfacesFrom(const Scene& scene,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "projection/scene.h"
+#include "projection/simd4.h"
 
 namespace ridgeline {
 
@@ -22,6 +23,8 @@ struct SurfacePanorama {
 
   // Surface in a direction (east, north, height), by the nearest ray; nullptr outside the grid.
   const std::uint32_t* Find(const Eigen::Vector3f& direction) const;
+  // Indices into `surfaces` for four directions; -1 outside the grid.
+  simd::Int4 Find(const simd::Vec3x4& directions) const;
 };
 
 struct PanoramaRange {

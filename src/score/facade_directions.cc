@@ -12,10 +12,17 @@
 namespace ridgeline {
 namespace {
 
+using simd::Float4;
+
 constexpr float kPi = std::numbers::pi_v<float>;
+constexpr float kMinHorizontal = 0.1f;  // flat roofs and floors have no course
 constexpr int kBins = 36;
 // The background is this share uniform, so that a picture of one direction still tells something.
 constexpr float kUniformShare = 0.3f;
+// Squares of deviations are tabulated up to kMaxSquare.
+constexpr int kStepsPerSquare = 16;
+constexpr int kMaxSquare = 24;
+constexpr int kTableSize = kStepsPerSquare * kMaxSquare + 2;
 
 int BinOf(const LineSegment& segment) {
   const Eigen::Vector2f d = segment.b - segment.a;
@@ -41,6 +48,10 @@ std::array<float, kBins> DirectionDensity(std::span<const LineSegment> segments)
   return density;
 }
 
+simd::Vec3x4 Rotated(const simd::Vec3x4 (&rows)[3], const simd::Vec3x4& v) {
+  return {simd::Dot(rows[0], v), simd::Dot(rows[1], v), simd::Dot(rows[2], v)};
+}
+
 }  // namespace
 
 void FacadeDirectionOptions::Validate() const {
@@ -58,54 +69,94 @@ void FacadeDirectionOptions::Validate() const {
 FacadeDirections::FacadeDirections(std::span<const LineSegment> segments,
                                    const PinholeCamera& camera,
                                    const FacadeDirectionOptions& options)
-    : aligned_share_(static_cast<float>(options.aligned_share)),
-      sigma_rad_(static_cast<float>(options.sigma_deg) * kPi / 180.0f) {
+    : log_ratios_(static_cast<std::size_t>(kBins) * kTableSize) {
+  const double sigma_rad = options.sigma_deg * std::numbers::pi / 180.0;
+  inverse_variance_ = static_cast<float>(1.0 / (sigma_rad * sigma_rad));
   const std::array<float, kBins> density = DirectionDensity(segments);
-  lines_.reserve(segments.size());
-  for (const LineSegment& segment : segments) {
-    const Eigen::Vector2d middle = (0.5f * (segment.a + segment.b)).cast<double>();
-    lines_.push_back({camera.RayFromImage(middle).cast<float>(),
-                      (segment.b - segment.a).normalized(),
-                      segment.Length() / static_cast<float>(camera.width),
-                      density[BinOf(segment)]});
+  // Half-normal over the angle, shared by the two directions of a surface.
+  const double peak = 0.5 * std::sqrt(2.0 / std::numbers::pi) / sigma_rad;
+  for (std::size_t i = 0; i < log_ratios_.size(); ++i) {
+    const double square = static_cast<double>(i % kTableSize) / kStepsPerSquare;
+    const double hit = peak * std::exp(-0.5 * square) / density[i / kTableSize];
+    log_ratios_[i] =
+        static_cast<float>(std::log(1.0 - options.aligned_share + options.aligned_share * hit));
   }
-  const std::size_t kept = std::min<std::size_t>(lines_.size(), options.max_lines);
-  std::stable_sort(lines_.begin(), lines_.end(),
-                   [](const Line& x, const Line& y) { return x.weight > y.weight; });
-  lines_.resize(kept, lines_.empty() ? Line{} : lines_.front());
+  std::vector<LineSegment> longest(segments.begin(), segments.end());
+  std::stable_sort(longest.begin(), longest.end(), [](const LineSegment& x, const LineSegment& y) {
+    return x.Length() > y.Length();
+  });
+  longest.resize(std::min<std::size_t>(longest.size(), options.max_lines), LineSegment{});
+  lines_.resize((longest.size() + 3) / 4, Lines{});
+  for (std::size_t i = 0; i < longest.size(); ++i) {
+    const LineSegment& segment = longest[i];
+    Lines& lines = lines_[i / 4];
+    const int lane = static_cast<int>(i % 4);
+    const Eigen::Vector2d middle = (0.5f * (segment.a + segment.b)).cast<double>();
+    simd::SetLane(lines.ray, lane, camera.RayFromImage(middle).cast<float>());
+    const Eigen::Vector2f direction = (segment.b - segment.a).normalized();
+    lines.dx[lane] = direction.x();
+    lines.dy[lane] = direction.y();
+    lines.weight[lane] = segment.Length() / static_cast<float>(camera.width);
+    lines.table[static_cast<std::size_t>(lane)] =
+        static_cast<std::size_t>(BinOf(segment)) * kTableSize;
+  }
+}
+
+// Of the angle between lines and the images of world directions given in camera axes; 1 for
+// directions without image.
+simd::Float4 FacadeDirections::SquareOfSine(const Lines& lines, const simd::Vec3x4& direction) {
+  const Float4 x = direction.x - lines.ray.x * direction.z;
+  const Float4 y = direction.y - lines.ray.y * direction.z;
+  const Float4 cross = x * lines.dy - y * lines.dx;
+  const Float4 norm = x * x + y * y;
+  return norm > 0.0f ? cross * cross / norm : simd::Splat(1.0f);
+}
+
+float FacadeDirections::LogRatioAt(std::size_t table, float square) const {
+  const float place = std::min(square, static_cast<float>(kMaxSquare)) * kStepsPerSquare;
+  const auto step = static_cast<std::size_t>(place);
+  const float t = place - static_cast<float>(step);
+  const float* values = &log_ratios_[table + step];
+  return values[0] + t * (values[1] - values[0]);
 }
 
 float FacadeDirections::LogRatio(const SurfacePanorama& surfaces,
                                  const CityModel& model,
                                  const Eigen::Matrix3f& cam_from_world) const {
-  constexpr float kMinHorizontal = 0.1f;  // flat roofs and floors have no course
+  const simd::Vec3x4 to_camera[3] = {simd::Splat(cam_from_world.row(0)),
+                                     simd::Splat(cam_from_world.row(1)),
+                                     simd::Splat(cam_from_world.row(2))};
   const Eigen::Matrix3f world_from_cam = cam_from_world.transpose();
-  // Half-normal over the angle, shared by the two directions of a surface.
-  const float peak = 0.5f * std::sqrt(2.0f / kPi) / sigma_rad_;
-  float sum = 0.0f;
-  for (const Line& line : lines_) {
-    const std::uint32_t* surface = surfaces.Find(world_from_cam * line.ray);
-    if (surface == nullptr || *surface == kNoSurface || *surface == kTerrainSurface) continue;
-    const Eigen::Vector3f& normal = model.surfaces[*surface].normal;
-    const float horizontal = std::hypot(normal.x(), normal.y());
-    if (horizontal < kMinHorizontal) continue;
-    const Eigen::Vector3f course(-normal.y() / horizontal, normal.x() / horizontal, 0.0f);
-    const Eigen::Vector3f rise = normal.cross(course);
-    float sine = 1.0f;
-    for (const Eigen::Vector3f& along : {course, rise}) {
-      const Eigen::Vector3f c = cam_from_world * along;
-      const Eigen::Vector2f d(c.x() - line.ray.x() * c.z(), c.y() - line.ray.y() * c.z());
-      const float norm = d.norm();
-      if (norm <= 0.0f) continue;
-      const float cross = d.x() * line.direction.y() - d.y() * line.direction.x();
-      sine = std::min(sine, std::abs(cross) / norm);
+  const simd::Vec3x4 to_world[3] = {simd::Splat(world_from_cam.row(0)),
+                                    simd::Splat(world_from_cam.row(1)),
+                                    simd::Splat(world_from_cam.row(2))};
+  Float4 sum = simd::Splat(0.0f);
+  for (const Lines& lines : lines_) {
+    const simd::Int4 cells = surfaces.Find(Rotated(to_world, lines.ray));
+    // Courses and rises need no unit length.
+    simd::Vec3x4 course = simd::Splat(Eigen::Vector3f::Zero());
+    simd::Vec3x4 rise = course;
+    Float4 weight = simd::Splat(0.0f);
+    for (int lane = 0; lane < 4; ++lane) {
+      if (cells[lane] < 0) continue;
+      const std::uint32_t surface = surfaces.surfaces[static_cast<std::size_t>(cells[lane])];
+      if (surface == kNoSurface || surface == kTerrainSurface) continue;
+      const Eigen::Vector3f& normal = model.surfaces[surface].normal;
+      if (normal.head<2>().squaredNorm() < kMinHorizontal * kMinHorizontal) continue;
+      const Eigen::Vector3f along(-normal.y(), normal.x(), 0.0f);
+      simd::SetLane(course, lane, along);
+      simd::SetLane(rise, lane, normal.cross(along));
+      weight[lane] = lines.weight[lane];
     }
-    const float z = sine / sigma_rad_;
-    const float hit = peak * std::exp(-0.5f * z * z);
-    sum += line.weight *
-           std::log(1.0f - aligned_share_ + aligned_share_ * hit / line.background);
+    const Float4 squares = inverse_variance_ * simd::Min(SquareOfSine(lines, Rotated(to_camera, course)),
+                                                         SquareOfSine(lines, Rotated(to_camera, rise)));
+    Float4 ratios;
+    for (int lane = 0; lane < 4; ++lane) {
+      ratios[lane] = LogRatioAt(lines.table[static_cast<std::size_t>(lane)], squares[lane]);
+    }
+    sum += weight * ratios;
   }
-  return sum;
+  return sum[0] + sum[1] + sum[2] + sum[3];
 }
 
 }  // namespace ridgeline

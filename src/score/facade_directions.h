@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "camera/intrinsics.h"
 #include "city/city_model.h"
 #include "lines/line_segment.h"
+#include "projection/simd4.h"
 #include "projection/surface_panorama.h"
 
 namespace ridgeline {
@@ -45,15 +47,20 @@ class FacadeDirections {
                  const Eigen::Matrix3f& cam_from_world) const;
 
  private:
-  struct Line {
-    Eigen::Vector3f ray;        // through its middle, camera axes, z = 1
-    Eigen::Vector2f direction;  // unit
-    float weight;
-    float background;  // density of its direction in this picture [1 / rad]
+  // Four lines side by side.
+  struct Lines {
+    simd::Vec3x4 ray;  // through the middle, camera axes, z = 1
+    simd::Float4 dx, dy;
+    simd::Float4 weight;
+    std::array<std::size_t, 4> table;  // first entry of the direction's row in log_ratios_
   };
-  std::vector<Line> lines_;
-  float aligned_share_;
-  float sigma_rad_;
+  static simd::Float4 SquareOfSine(const Lines& lines, const simd::Vec3x4& direction);
+  // Log likelihood ratio of a line whose direction is off by sqrt(square) standard deviations.
+  float LogRatioAt(std::size_t table, float square) const;
+
+  std::vector<Lines> lines_;
+  float inverse_variance_;         // of sines [1 / rad^2]
+  std::vector<float> log_ratios_;  // by direction of the picture, then by square of the deviation
 };
 
 }  // namespace ridgeline
