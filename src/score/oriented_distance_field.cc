@@ -5,8 +5,10 @@
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
+#include <span>
 
 #include "base/parallel.h"
+#include "score/truncated_distance.h"
 
 namespace ridgeline {
 namespace {
@@ -62,21 +64,17 @@ OrientedDistanceField::OrientedDistanceField(const std::vector<LineSegment>& seg
   };
   ParallelFor(kDirections, threads, [&](std::size_t index) {
     const int direction = static_cast<int>(index);
-    cv::Mat free(height, width, CV_8U, cv::Scalar(255));
+    const std::span<std::uint8_t> pixels(
+        distances_.data() + static_cast<std::size_t>(direction) * width * height,
+        static_cast<std::size_t>(width) * height);
+    std::fill(pixels.begin(), pixels.end(), std::uint8_t{255});
+    cv::Mat free(height, width, CV_8U, pixels.data());
     for (const LineSegment& segment : segments) {
       if (UndirectedDifferenceDeg(DirectionDeg(segment), BinCenterDeg(direction)) <=
           kDirectionToleranceDeg) {
         cv::line(free, fixed(segment.a), fixed(segment.b), cv::Scalar(0), 1, cv::LINE_8, kShift);
       }
     }
-    cv::Mat distance;
-    cv::distanceTransform(free, distance, cv::DIST_L2, cv::DIST_MASK_5, CV_32F);
-    cv::Mat units(height,
-                  width,
-                  CV_8U,
-                  distances_.data() + static_cast<std::size_t>(direction) * width * height);
-    distance.convertTo(units, CV_8U, kUnitsPerPx);
-
     cv::Mat free_share;
     cv::resize(free, free_share, cv::Size(cell_columns_, cell_rows_), 0.0, 0.0, cv::INTER_AREA);
     cv::Mat density;
@@ -88,6 +86,7 @@ OrientedDistanceField::OrientedDistanceField(const std::vector<LineSegment>& seg
       densities_[static_cast<std::size_t>(direction) * cell_rows_ * cell_columns_ + i] =
           static_cast<std::uint8_t>(std::clamp(std::lround(level), 0L, kDensityLevels - 1L));
     }
+    TruncatedDistance(pixels, width, height);
   });
 }
 
