@@ -68,15 +68,15 @@ struct SearchOptions {
 
 struct ConfidenceOptions {
   // Answers below this confidence are withheld.
-  double abstain_below = 0.25;
+  double abstain_below = 0.15;
   // Logistic calibration of the posterior mass: logit(confidence) = offset + slope * logit(mass).
   double offset = 0.0;
   double slope = 1.0;
   // Widens the posterior, since samples of a picture are correlated.
-  double temperature = 1.0;
+  double temperature = 1.5;
   // Least standard deviations, of what the map cannot resolve.
-  double floor_m = 0.3;
-  double floor_deg = 0.2;
+  double floor_m = 0.45;
+  double floor_deg = 0.4;
 
   void Visit(OptionVisitor& v);
   void Validate() const;

@@ -27,6 +27,9 @@ void PoseSpaceOptions::Validate() const {
   CheckRange("heading_deg", heading_deg, 180.0);
   CheckRange("pitch_deg", pitch_deg, 90.0);
   CheckRange("roll_deg", roll_deg, 180.0);
+  if (!(tilt_scale_deg > 0.0)) {
+    throw InputError("", "search.tilt_scale_deg", std::to_string(tilt_scale_deg), "> 0");
+  }
   if (!(camera_height_m > 0.0 && camera_height_m <= kMaxRange)) {
     throw InputError("", "search.camera_height_m", std::to_string(camera_height_m), "(0, 1000]");
   }
@@ -88,6 +91,11 @@ ViewAngles PoseSpace::AnglesAt(const Offset& offset) const {
   return {WrapHeadingDeg(angles_.heading_deg + offset.heading_deg),
           angles_.pitch_deg + offset.pitch_deg,
           angles_.roll_deg + offset.roll_deg};
+}
+
+double PoseSpace::LogPrior(const Offset& offset) const {
+  const double tilt = std::hypot(offset.pitch_deg, offset.roll_deg) / ranges_.tilt_scale_deg;
+  return -1.5 * std::log1p(tilt * tilt);  // Cauchy in two dimensions
 }
 
 std::optional<Pose> PoseSpace::PoseAt(const Offset& offset) const {

@@ -20,8 +20,10 @@ struct PoseSpaceOptions {
   double north_m = 10.0;
   double height_m = 0.0;
   double heading_deg = 20.0;
-  double pitch_deg = 0.0;
-  double roll_deg = 0.0;
+  double pitch_deg = 8.0;
+  double roll_deg = 8.0;
+  // How far a prior's pitch and roll are usually off [deg]: the scale of a Cauchy distribution.
+  double tilt_scale_deg = 2.0;
   // Height of the camera above the terrain where the prior has no height [m].
   double camera_height_m = 1.7;
   // Whether poses in a building's footprint and off the DTM are skipped.
@@ -34,6 +36,7 @@ struct PoseSpaceOptions {
     v.Field("heading_deg", heading_deg);
     v.Field("pitch_deg", pitch_deg);
     v.Field("roll_deg", roll_deg);
+    v.Field("tilt_scale_deg", tilt_scale_deg);
     v.Field("camera_height_m", camera_height_m);
     v.Field("free_space", free_space);
   }
@@ -73,6 +76,8 @@ class PoseSpace {
   // Projection centre (local) at an offset; nullopt: not admissible.
   std::optional<Eigen::Vector3d> PositionAt(double east_m, double north_m, double height_m) const;
   ViewAngles AnglesAt(const Offset& offset) const;
+  // Log of the prior's density at an offset against that at the prior.
+  double LogPrior(const Offset& offset) const;
   // Pose in the local frame; nullopt: not admissible.
   std::optional<Pose> PoseAt(const Offset& offset) const;
 

@@ -117,9 +117,11 @@ PoseVolume ComputeVolume(const Score& score,
   const PanoramaRange range =
       RangeOf(camera, space.center_angles(), half_ranges, surface_step_rad);
   std::vector<Eigen::Quaterniond> rotations;
+  std::vector<double> log_priors;
   for (std::size_t i = 0; i < volume.orientations(); ++i) {
-    rotations.push_back(
-        CamFromWorld(space.AnglesAt(volume.OffsetOf(i, space.center_angles()))));
+    const PoseSpace::Offset offset = volume.OffsetOf(i, space.center_angles());
+    rotations.push_back(CamFromWorld(space.AnglesAt(offset)));
+    log_priors.push_back(space.LogPrior(offset));
   }
   std::vector<std::uint8_t> admissible(positions, 0);
   ParallelFor(positions, threads, [&](std::size_t p) {
@@ -133,7 +135,7 @@ PoseVolume ComputeVolume(const Score& score,
     KeepLargest(view);
     for (std::size_t i = 0; i < rotations.size(); ++i) {
       volume.log_ratios[first + i] =
-          static_cast<float>(score.LogRatio(view, {rotations[i], *position}, workspace));
+          static_cast<float>(score.LogRatio(view, {rotations[i], *position}, workspace) + log_priors[i]);
     }
   });
   volume.admissible_positions =

@@ -10,9 +10,6 @@ namespace {
 
 constexpr double kNearM = 2.0;
 constexpr double kNearDeg = 2.0;
-// Poses that belong to the peak whose width is the spread.
-constexpr double kPeakM = 3.0;
-constexpr double kPeakDeg = 3.0;
 
 struct Sample {
   PoseSpace::Offset offset;
@@ -44,7 +41,6 @@ Posterior FromSamples(const std::vector<Sample>& samples,
   for (const Sample& sample : samples) highest = std::max(highest, sample.log_ratio);
   double total = 0.0;
   double near = 0.0;
-  double peak = 0.0;
   Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
   double heading_moment = 0.0;
   for (const Sample& sample : samples) {
@@ -53,8 +49,6 @@ Posterior FromSamples(const std::vector<Sample>& samples,
     const double distance = DistanceM(sample.offset, best);
     const double angle = AngleDeg(sample.offset, best);
     if (distance <= kNearM && angle <= kNearDeg) near += weight;
-    if (distance > kPeakM || angle > kPeakDeg) continue;
-    peak += weight;
     const Eigen::Vector2d d(sample.offset.east_m - best.east_m,
                             sample.offset.north_m - best.north_m);
     const double h = HeadingDifferenceDeg(sample.offset.heading_deg, best.heading_deg);
@@ -64,11 +58,10 @@ Posterior FromSamples(const std::vector<Sample>& samples,
   Posterior posterior;
   posterior.mass = near / total;
   posterior.confidence = Calibrated(posterior.mass, options);
-  const double share = peak > 0.0 ? 1.0 / peak : 0.0;
   posterior.spread.position_covariance =
-      moments * share + options.floor_m * options.floor_m * Eigen::Matrix2d::Identity();
+      moments / total + options.floor_m * options.floor_m * Eigen::Matrix2d::Identity();
   posterior.spread.heading_sigma_deg =
-      std::sqrt(heading_moment * share + options.floor_deg * options.floor_deg);
+      std::sqrt(heading_moment / total + options.floor_deg * options.floor_deg);
   return posterior;
 }
 

@@ -74,7 +74,8 @@ class Climber {
                  score_.parts());
     const auto evaluate = [&](const PoseSpace::Offset& offset) {
       ++evaluations_;
-      return score_.LogRatio(view, {CamFromWorld(space_.AnglesAt(offset)), *position}, workspace_);
+      return score_.LogRatio(view, {CamFromWorld(space_.AnglesAt(offset)), *position}, workspace_) +
+             space_.LogPrior(offset);
     };
     pose.log_ratio = evaluate(pose.offset);
     const PoseSpace::Offset first = pose.offset;

@@ -53,7 +53,7 @@ SampledSearch SampleSearch(const Score& score,
                  pose->center_in_world,
                  RangeOf(camera, space.AnglesAt(offset), {}, surface_step_rad),
                  score.parts());
-    return score.Energy(view, *pose, workspace);
+    return Score::EnergyOf(score.LogRatio(view, *pose, workspace) + space.LogPrior(offset));
   };
   const std::unique_ptr<Sampler> sampler = MakeSampler(options.sampler, problem, seed);
   MinimizeOptions minimize;

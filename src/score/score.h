@@ -28,11 +28,6 @@ class Score {
   static double EnergyOf(double log_ratio);
   // The inverse, for scores that are energies by themselves.
   static double LogRatioOf(double energy);
-  double Energy(const PositionView& view,
-                const Pose& cam_from_local,
-                PictureEvidence::Workspace& workspace) const {
-    return EnergyOf(LogRatio(view, cam_from_local, workspace));
-  }
 };
 
 }  // namespace ridgeline
