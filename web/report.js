@@ -68,15 +68,17 @@
   }
 
   // --- plots ---
+  // A score study localizes nothing: its plots are its own.
+  const isStudy = summary.runs.length > 0 && summary.runs.every((r) => r.confidence === null);
   if (typeof Plotly === 'undefined') {
     $('noplots').hidden = false;
   } else {
-    if (withTruth > 1) {
+    if (withTruth > 1 && !isStudy) {
       Plots.figure($('plots'), 'Recall',
         'Share of all runs within x metres and x degrees; abstained runs count as misses. ' +
         'Band: 95 % bootstrap over photos.', Plots.recall(summary.recall));
     }
-    if (summary.runs.filter((r) => r.translation !== null).length > 1) {
+    if (summary.runs.filter((r) => r.translation !== null).length > 1 && !isStudy) {
       Plots.figure($('plots'), 'Score against error',
         'A score that can be trusted keeps the right poses low. Click a point to see its photo.',
         Plots.scatter(summary.runs, (index) => open(summary.runs[index])));
@@ -136,7 +138,7 @@
     card.type = 'button';
     const text = make('span', 'text');
     text.append(make('span', 'name', run.label), make('span', 'badge', sentenceOf(run)));
-    const more = [`confidence ${run.confidence.toFixed(2)}`];
+    const more = run.confidence === null ? [] : [`confidence ${run.confidence.toFixed(2)}`];
     if (run.set) more.unshift(run.set);
     if (run.outcome === 'abstained' && run.reason) more.unshift(run.reason);
     const line = make('span', 'dim', more.join(' · '));
@@ -180,6 +182,7 @@
   $('sort').addEventListener('change', update);
   $('find').addEventListener('input', () => { limit = PAGE; update(); });
   $('edges').addEventListener('change', update);
+  if (isStudy) $('sort').querySelector('[value="confidence"]').remove();
   $('more').addEventListener('click', () => { limit += PAGE; update(); });
   $('photos').hidden = summary.runs.length < 2;
   if (summary.runs.length > 1) update();

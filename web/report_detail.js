@@ -287,6 +287,11 @@ const Detail = (() => {
       Plots.figure(columns, 'Search', 'Best energy after each evaluation.',
         tracePlot(detail.trace), true);
     }
+    if (typeof Plotly !== 'undefined') {
+      for (const plot of detail.plots) {
+        Plots.figure(columns, plot.title, plot.note, Plots.generic(plot), true);
+      }
+    }
     body.append(columns);
   };
 

@@ -135,9 +135,14 @@ const Plots = (() => {
   });
 
   const generic = (plot) => () => ({
-    data: plot.series.map((s) => ({name: s.name, x: s.x, y: s.y, mode: s.line ? 'lines' : 'markers',
-      marker: {size: 6, opacity: 0.65}})),
-    layout: layout(axis(plot.x, plot.xLog ? {type: 'log'} : {}), axis(plot.y)),
+    data: plot.series.map((s) => ({name: s.name, x: s.x, y: s.y, text: s.labels,
+      mode: !s.line ? 'markers' : plot.xNames.length > 0 ? 'lines+markers' : 'lines',
+      marker: {size: s.line ? 8 : 6, opacity: s.line ? 1 : 0.65}})),
+    layout: layout(
+      axis(plot.x, plot.xNames.length > 0 ?
+        {tickvals: plot.xNames.map((_, i) => i), ticktext: plot.xNames} :
+        plot.xLog ? {type: 'log'} : {}),
+      axis(plot.y)),
   });
 
   return {add, figure, forget, redraw, color, axis, layout, recall, reliability, scatter, generic};

@@ -10,6 +10,7 @@
 #include "cli/localize.h"
 #include "cli/render.h"
 #include "cli/skyline.h"
+#include "cli/study.h"
 #include "cli/synth.h"
 #include "cli/version.h"
 
@@ -22,6 +23,7 @@ using AddFunction = void (*)(CLI::App&, Context&);
 constexpr AddFunction kCommands[] = {
     AddLocalizeCommand,
     AddBenchCommand,
+    AddStudyCommand,
     AddIndexCommand,
     AddInfoCommand,
     AddRenderCommand,

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/run_outputs.h"
 
-#include <cctype>
 #include <filesystem>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "cli/file_name.h"
 #include "cli/version.h"
 #include "report/bench_report.h"
 #include "report/html_report.h"
@@ -16,15 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A name for the overlay of a run; what file systems dislike becomes '_'.
 std::string OverlayName(const RunRecord& record, bool seeds) {
-  std::string name = record.query;
-  for (char& c : name) {
-    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' ||
-                       c == '.' || static_cast<unsigned char>(c) >= 0x80;
-    if (!plain) c = '_';
-  }
-  return name + (seeds ? "_" + std::to_string(record.seed) : "") + ".jpg";
+  return FileNameOf(record.query) + (seeds ? "_" + std::to_string(record.seed) : "") + ".jpg";
 }
 
 void CheckFolderOf(const std::string& option, const std::string& file) {

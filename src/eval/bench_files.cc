@@ -10,19 +10,12 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "eval/csv_text.h"
 
 namespace ridgeline {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// Enough digits for micrometres and micro-degrees; "" for what is not known.
-std::string Number(double value, int digits) {
-  std::ostringstream text;
-  text.precision(digits);
-  text << std::fixed << value;
-  return text.str();
-}
 
 Json JsonOf(const Spread& spread) {
   return {{"median", spread.median}, {"mean", spread.mean}, {"mad", spread.mad}};
@@ -63,14 +56,6 @@ std::vector<std::string> Fields(const std::string& line) {
   return fields;
 }
 
-// A text as one CSV field (RFC 4180).
-std::string CsvField(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
 }  // namespace
 
 std::string ResultsCsv(std::span<const RunRecord> runs) {
@@ -79,23 +64,23 @@ std::string ResultsCsv(std::span<const RunRecord> runs) {
          "evaluations,seconds\n";
   for (const RunRecord& run : runs) {
     csv << CsvField(run.query) << ',' << run.seed << ',' << run.status << ','
-        << Number(run.energy, 6) << ',' << Number(run.confidence, 6) << ',';
+        << CsvNumber(run.energy, 6) << ',' << CsvNumber(run.confidence, 6) << ',';
     if (run.pose) {
       const Eigen::Vector3d& c = run.pose->center_in_world;
       const Eigen::Quaterniond& q = run.pose->cam_from_world;
-      csv << Number(c.x(), 4) << ',' << Number(c.y(), 4) << ',' << Number(c.z(), 4) << ','
-          << Number(q.w(), 9) << ',' << Number(q.x(), 9) << ',' << Number(q.y(), 9) << ','
-          << Number(q.z(), 9) << ',';
+      csv << CsvNumber(c.x(), 4) << ',' << CsvNumber(c.y(), 4) << ',' << CsvNumber(c.z(), 4) << ','
+          << CsvNumber(q.w(), 9) << ',' << CsvNumber(q.x(), 9) << ',' << CsvNumber(q.y(), 9) << ','
+          << CsvNumber(q.z(), 9) << ',';
     } else {
       csv << ",,,,,,,";
     }
     if (run.error) {
-      csv << Number(run.error->translation_m, 4) << ',' << Number(run.error->horizontal_m, 4) << ','
-          << Number(run.error->rotation_deg, 5) << ',';
+      csv << CsvNumber(run.error->translation_m, 4) << ',' << CsvNumber(run.error->horizontal_m, 4) << ','
+          << CsvNumber(run.error->rotation_deg, 5) << ',';
     } else {
       csv << ",,,";
     }
-    csv << run.evaluations << ',' << Number(run.seconds, 3) << '\n';
+    csv << run.evaluations << ',' << CsvNumber(run.seconds, 3) << '\n';
   }
   return csv.str();
 }
@@ -118,17 +103,17 @@ std::string SummaryJson(const std::string& dataset,
 std::string PosesText(std::span<const RunRecord> runs, const Eigen::Vector3d& origin) {
   std::ostringstream text;
   text << "# cam_from_world poses in the manner of COLMAP's images.txt, relative to the origin\n"
-       << "# origin " << Number(origin.x(), 1) << ' ' << Number(origin.y(), 1) << ' '
-       << Number(origin.z(), 1) << " (east north height)\n"
+       << "# origin " << CsvNumber(origin.x(), 1) << ' ' << CsvNumber(origin.y(), 1) << ' '
+       << CsvNumber(origin.z(), 1) << " (east north height)\n"
        << "# query seed qw qx qy qz tx ty tz\n";
   for (const RunRecord& run : runs) {
     if (!run.pose) continue;
     const Pose relative{run.pose->cam_from_world, run.pose->center_in_world - origin};
     const Eigen::Quaterniond& q = relative.cam_from_world;
     const Eigen::Vector3d t = relative.ColmapTranslation();
-    text << run.query << ' ' << run.seed << ' ' << Number(q.w(), 9) << ' ' << Number(q.x(), 9) << ' '
-         << Number(q.y(), 9) << ' ' << Number(q.z(), 9) << ' ' << Number(t.x(), 5) << ' '
-         << Number(t.y(), 5) << ' ' << Number(t.z(), 5) << '\n';
+    text << run.query << ' ' << run.seed << ' ' << CsvNumber(q.w(), 9) << ' ' << CsvNumber(q.x(), 9) << ' '
+         << CsvNumber(q.y(), 9) << ' ' << CsvNumber(q.z(), 9) << ' ' << CsvNumber(t.x(), 5) << ' '
+         << CsvNumber(t.y(), 5) << ' ' << CsvNumber(t.z(), 5) << '\n';
   }
   return text.str();
 }

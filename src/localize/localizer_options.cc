@@ -2,7 +2,6 @@
 #include "localize/localizer_options.h"
 
 #include <algorithm>
-#include <array>
 
 #include "base/error.h"
 
@@ -15,6 +14,12 @@ void RequirePositive(const char* field, double value) {
 
 }  // namespace
 
+const std::vector<std::string>& ScoreNames() {
+  static const std::vector<std::string> names = {
+      "evidence", "line_energy", "line_energy_zbuffer", "skyline_l1"};
+  return names;
+}
+
 void ScoreOptions::Visit(OptionVisitor& v) {
   v.Field("name", name);
   v.Field("weights", weights);
@@ -26,10 +31,11 @@ void ScoreOptions::Visit(OptionVisitor& v) {
 }
 
 void ScoreOptions::Validate() const {
-  constexpr std::array kNames = {"evidence", "line_energy", "line_energy_zbuffer", "skyline_l1"};
-  if (std::find(kNames.begin(), kNames.end(), name) == kNames.end()) {
-    throw InputError("", "score.name", "\"" + name + "\"",
-                     "evidence, line_energy, line_energy_zbuffer or skyline_l1");
+  const std::vector<std::string>& names = ScoreNames();
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    std::string known;
+    for (const std::string& n : names) known += (known.empty() ? "" : ", ") + n;
+    throw InputError("", "score.name", "\"" + name + "\"", "one of " + known);
   }
   if (weights.size() != kCues) {
     throw InputError("", "score.weights", std::to_string(weights.size()) + " numbers",

@@ -17,6 +17,9 @@
 
 namespace ridgeline {
 
+// Names that ScoreOptions::name accepts, what MakeScore() knows.
+const std::vector<std::string>& ScoreNames();
+
 struct ScoreOptions {
   // "evidence": ours. "line_energy": Loeper et al. on visible edges; "line_energy_zbuffer": the same
   // on edges from a z-buffer, as in the paper. "skyline_l1": Ayadi et al.

@@ -87,6 +87,7 @@ std::vector<Share95> Reliability(std::span<const ReportRun> runs, int bins) {
   std::vector<double> sum(bins, 0.0);
   for (const ReportRun& run : runs) {
     if (run.outcome != ReportOutcome::kRight && run.outcome != ReportOutcome::kWrong) continue;
+    if (!std::isfinite(run.confidence)) continue;
     const int bin = std::clamp(static_cast<int>(run.confidence * bins), 0, bins - 1);
     ++count[bin];
     right[bin] += run.outcome == ReportOutcome::kRight ? 1 : 0;

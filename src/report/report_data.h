@@ -43,46 +43,6 @@ struct ReportHillshade {
   Eigen::Vector2d upper = Eigen::Vector2d::Zero();
 };
 
-enum class ReportOutcome { kRight, kWrong, kAbstained, kUnknown };  // kUnknown: without truth
-
-// One query localized once.
-struct ReportRun {
-  std::string id;
-  std::string set;  // may be empty
-  int seed = 0;
-  int photo = -1;      // index into ReportData::photos; -1: none
-  std::string status;  // "ok", "ambiguous", ...
-  std::string reason;  // of an abstention, in words
-  ReportOutcome outcome = ReportOutcome::kUnknown;
-  double energy = 1.0;
-  double confidence = 0.0;
-  std::optional<double> translation_m;  // errors against the truth
-  std::optional<double> rotation_deg;
-  std::optional<ReportPose> prior;
-  std::optional<ReportPose> result;
-  std::optional<ReportPose> truth;
-  std::vector<ReportMode> modes;
-  std::optional<Eigen::Matrix2d> position_covariance;  // of the result, east and north [m^2]
-  std::optional<ReportEnergyMap> map;
-  std::optional<ReportHillshade> hillshade;
-  std::vector<std::vector<Eigen::Vector2d>> footprints;  // near the map, CRS [m]
-  std::vector<Eigen::Vector2d> search_box;               // outline, CRS [m]
-  std::vector<OverlayLayer> prior_layers;                // lines over the photo [px of the photo]
-  std::vector<OverlayLayer> result_layers;
-  std::vector<double> best_energy;  // after each evaluation, or at even steps; may be empty
-  double hfov_deg = 0.0;            // horizontal field of view; 0: not known
-  double evaluations = 0.0;
-  double seconds = 0.0;
-  std::vector<std::pair<std::string, std::string>> facts;  // more rows for the table of the run
-};
-
-struct ReportPhoto {
-  std::string name;  // for people, e.g. the file's name
-  cv::Mat picture;   // undistorted, 8-bit; may be smaller than the photo
-  int width = 0;     // of the photo, in which layers are given [px]; 0: those of the picture
-  int height = 0;
-};
-
 // A plot of points or lines, e.g. of a score study.
 struct ReportSeries {
   std::string name;
@@ -97,7 +57,49 @@ struct ReportPlot {
   std::string x_label;
   std::string y_label;
   bool x_log = false;
+  std::vector<std::string> x_names;  // of x = 0, 1, 2, ...; empty: numbers
   std::vector<ReportSeries> series;
+};
+
+enum class ReportOutcome { kRight, kWrong, kAbstained, kUnknown };  // kUnknown: without truth
+
+// One query localized once.
+struct ReportRun {
+  std::string id;
+  std::string set;  // may be empty
+  int seed = 0;
+  int photo = -1;      // index into ReportData::photos; -1: none
+  std::string status;  // "ok", "ambiguous", ...
+  std::string reason;  // of an abstention, in words
+  ReportOutcome outcome = ReportOutcome::kUnknown;
+  double energy = 1.0;
+  double confidence = 0.0;              // NaN: none, as in a score study
+  std::optional<double> translation_m;  // errors against the truth
+  std::optional<double> rotation_deg;
+  std::optional<ReportPose> prior;
+  std::optional<ReportPose> result;
+  std::optional<ReportPose> truth;
+  std::vector<ReportMode> modes;
+  std::optional<Eigen::Matrix2d> position_covariance;  // of the result, east and north [m^2]
+  std::optional<ReportEnergyMap> map;
+  std::optional<ReportHillshade> hillshade;
+  std::vector<std::vector<Eigen::Vector2d>> footprints;  // near the map, CRS [m]
+  std::vector<Eigen::Vector2d> search_box;               // outline, CRS [m]
+  std::vector<OverlayLayer> prior_layers;                // lines over the photo [px of the photo]
+  std::vector<OverlayLayer> result_layers;
+  std::vector<ReportPlot> plots;    // of this run alone
+  std::vector<double> best_energy;  // after each evaluation, or at even steps; may be empty
+  double hfov_deg = 0.0;            // horizontal field of view; 0: not known
+  double evaluations = 0.0;
+  double seconds = 0.0;
+  std::vector<std::pair<std::string, std::string>> facts;  // more rows for the table of the run
+};
+
+struct ReportPhoto {
+  std::string name;  // for people, e.g. the file's name
+  cv::Mat picture;   // undistorted, 8-bit; may be smaller than the photo
+  int width = 0;     // of the photo, in which layers are given [px]; 0: those of the picture
+  int height = 0;
 };
 
 struct ReportTable {

@@ -159,6 +159,7 @@ Json PlotJson(const ReportPlot& plot) {
           {"x", plot.x_label},
           {"y", plot.y_label},
           {"xLog", plot.x_log},
+          {"xNames", plot.x_names},
           {"series", series}};
 }
 
@@ -211,6 +212,8 @@ std::string PhotoJson(const ReportPhoto& photo, int max_side_px) {
 
 std::string RunDetailJson(const ReportRun& run) {
   const Vector2d origin = MapOrigin(run);
+  Json plots = Json::array();
+  for (const ReportPlot& plot : run.plots) plots.push_back(PlotJson(plot));
   Json footprints = Json::array();
   for (const auto& ring : run.footprints) footprints.push_back(Centimetres(ring, origin));
   Json modes = Json::array();
@@ -238,6 +241,7 @@ std::string RunDetailJson(const ReportRun& run) {
        {"priorLayers", LayersJson(run.prior_layers)},
        {"resultLayers", LayersJson(run.result_layers)},
        {"trace", trace},
+       {"plots", plots},
        {"facts", PairsJson(run.facts)}});
 }
 

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/study.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+#include "eval/bench.h"
+#include "localize/make_score.h"
+#include "localize/sampled_search.h"
+
+namespace ridgeline {
+namespace {
+
+// A query ready to be compared: picture, prior and the box around it.
+class QueryStudy {
+ public:
+  QueryStudy(const Query& query,
+             const LocalizationInput& input,
+             const Localizer& localizer,
+             const StudyOptions& options)
+      : localizer_(localizer),
+        options_(options),
+        truth_(*query.truth),
+        prior_(input.prior),
+        bgr_(UndistortImage(BgrOf(input.picture), input.camera)),
+        camera_(input.camera.Pinhole()),
+        evidence_(bgr_,
+                  camera_,
+                  localizer.options().lines,
+                  localizer.options().score.evidence,
+                  options.threads,
+                  input.lines),
+        space_(input.prior,
+               RangesOf(localizer.options().search.space, options.perturb),
+               localizer.scene(),
+               localizer.dtm(),
+               localizer.footprints()) {
+    truth_.center_in_world -= localizer.scene().model().origin_in_world;
+  }
+
+  // The map and its figures.
+  ScoreStudy Map(const ScoreChoice& choice) const {
+    const auto start = std::chrono::steady_clock::now();
+    const MapOptions& map = localizer_.options().search.map;
+    const double spacing_m = SpacingOf(space_.ranges(), map);
+    const std::unique_ptr<Score> score = Make(choice, std::max(1.0, spacing_m));
+    constexpr double kTiltSeparationDeg = 1.0;
+    const std::vector<Tilt> tilts = FindTilts(evidence_.segments(),
+                                              evidence_.camera(),
+                                              space_.center_angles(),
+                                              space_.ranges().pitch_deg,
+                                              space_.ranges().roll_deg,
+                                              kTiltSeparationDeg,
+                                              map.tilts);
+    const ScoredMap scored = WithErrors(ComputeVolume(*score,
+                                                      localizer_.scene(),
+                                                      space_,
+                                                      evidence_.camera(),
+                                                      tilts,
+                                                      SurfaceStep(),
+                                                      map,
+                                                      options_.threads),
+                                        space_,
+                                        truth_);
+    ScoreStudy study;
+    study.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    study.prior = prior_;
+    study.picture_lines = static_cast<int>(evidence_.segments().size());
+    study.visible_edges = VisibleEdgesAtTruth();
+    study.figures = ReliabilityOf(scored);
+    if (study.figures) {
+      const auto best =
+          space_.PoseAt(scored.volume.OffsetOf(study.figures->minimum, space_.center_angles()));
+      study.minimum = {best->cam_from_world,
+                       best->center_in_world + localizer_.scene().model().origin_in_world};
+    }
+    const std::vector<char> home = ComesHome(scored);
+    study.by_distance = ByDistance(scored, home);
+    study.by_angle = ByAngle(scored, home);
+    study.map = MapOf(scored.volume, space_, localizer_.scene().model());
+    for (std::size_t p = 0; p < scored.positions(); ++p) {
+      float& energy = study.map.energies[p % study.map.energies.size()];
+      if (scored.admissible[p] && std::isnan(energy)) energy = 1.0f;  // nothing in view
+    }
+    AddHeadings(scored.volume, study);
+    return study;
+  }
+
+  void AddSampled(const ScoreChoice& choice, ScoreStudy& study) const {
+    SearchOptions search = localizer_.options().search;
+    search.sampler.name = "tpe";
+    search.evaluations = options_.classes.back();
+    const SampledSearch sampled = SampleSearch(*Make(choice, 1.0),
+                                               localizer_.scene(),
+                                               space_,
+                                               evidence_.camera(),
+                                               SurfaceStep(),
+                                               search,
+                                               options_.seed,
+                                               options_.threads);
+    for (const Trial& trial : sampled.trace.trials) {
+      if (trial.state != TrialState::kComplete) continue;
+      const std::vector<double>& v = trial.values;
+      const auto pose = space_.PoseAt({v[0], v[1], v[2], v[3], v[4], v[5]});
+      if (!pose) continue;
+      const PoseError error = ErrorOf(*pose, truth_);
+      SampledPose point;
+      point.evaluation = static_cast<int>(trial.index) + 1;
+      point.after =
+          *std::lower_bound(options_.classes.begin(), options_.classes.end() - 1, point.evaluation);
+      point.energy = trial.energy;
+      point.translation_m = error.translation_m;
+      point.horizontal_m = error.horizontal_m;
+      point.rotation_deg = error.rotation_deg;
+      study.sampled.push_back(point);
+    }
+  }
+
+  void AddExplored(const ScoreChoice& choice, ScoreStudy& study) const {
+    ExploreOptions explore;
+    explore.heading_step_deg = localizer_.options().search.map.heading_step_deg;
+    study.explored = Explore(*Make(choice, 1.0),
+                             localizer_.scene(),
+                             space_,
+                             evidence_.camera(),
+                             SurfaceStep(),
+                             explore,
+                             options_.threads);
+  }
+
+ private:
+  std::unique_ptr<Score> Make(const ScoreChoice& choice, double tolerance_factor) const {
+    return MakeScore(
+        choice.options, evidence_, bgr_, camera_, localizer_.scene(), tolerance_factor);
+  }
+
+  double SurfaceStep() const {
+    return localizer_.options().score.evidence.surface_step_deg * std::numbers::pi / 180.0;
+  }
+
+  int VisibleEdgesAtTruth() const {
+    const PanoramaRange range =
+        RangeOf(evidence_.camera(), ViewAnglesOf(truth_.cam_from_world), {}, SurfaceStep());
+    const VisibleSet visible = localizer_.scene().VisibleFrom(truth_.center_in_world, range.sector);
+    std::vector<ProjectedSegment> segments;
+    ProjectPieces(visible, evidence_.camera(), truth_, segments);
+    return static_cast<int>(segments.size());
+  }
+
+  void AddHeadings(const PoseVolume& volume, ScoreStudy& study) const {
+    std::vector<double> best(volume.heading_deg.size(), -INFINITY);
+    for (std::size_t i = 0; i < volume.log_ratios.size(); ++i) {
+      double& value = best[i % volume.orientations() / volume.tilts.size()];
+      value = std::max(value, static_cast<double>(volume.log_ratios[i]));
+    }
+    for (std::size_t h = 0; h < best.size(); ++h) {
+      const PoseSpace::Offset offset{0.0, 0.0, 0.0, volume.heading_deg[h], 0.0, 0.0};
+      study.heading_deg.push_back(space_.AnglesAt(offset).heading_deg);
+      study.heading_energy.push_back(Score::EnergyOf(best[h]));
+    }
+  }
+
+  const Localizer& localizer_;
+  const StudyOptions& options_;
+  Pose truth_;  // local frame
+  PosePrior prior_;
+  cv::Mat bgr_;
+  PinholeCamera camera_;
+  PictureEvidence evidence_;
+  PoseSpace space_;
+};
+
+LocalizationInput StudyInput(const Query& query,
+                             const LocalizerOptions& localizer_options,
+                             const StudyOptions& options) {
+  LocalizationInput input = InputOf(query, localizer_options);
+  if (input.picture.cols != input.camera.width || input.picture.rows != input.camera.height) {
+    throw InputError(
+        query.image.string(),
+        "",
+        std::to_string(input.picture.cols) + " x " + std::to_string(input.picture.rows) + " px",
+        "the camera's " + std::to_string(input.camera.width) + " x " +
+            std::to_string(input.camera.height) + " px");
+  }
+  input.prior = DrawPrior(*query.truth, options.perturb, options.seed, query.id);
+  return input;
+}
+
+bool ChangesModel(const Variation& variation) {
+  return variation.name == "edges" || variation.name == "heights" || variation.name == "footprints";
+}
+
+}  // namespace
+
+void StudyOptions::Validate() const {
+  const auto is_rising = [&] {
+    for (std::size_t i = 1; i < classes.size(); ++i) {
+      if (classes[i] <= classes[i - 1]) return false;
+    }
+    return !classes.empty() && classes.front() > 0;
+  };
+  if (!is_rising())
+    throw InputError("--classes", "", "numbers that do not rise", "e.g. 50,100,200");
+}
+
+std::vector<std::size_t> StudyQueries(const Dataset& dataset, const std::vector<std::string>& ids) {
+  std::vector<std::size_t> queries;
+  std::vector<std::string> known;
+  for (std::size_t q = 0; q < dataset.queries.size(); ++q) {
+    known.push_back(dataset.queries[q].id);
+    if (ids.empty() && dataset.queries[q].truth) queries.push_back(q);
+  }
+  for (const std::string& id : ids) {
+    const auto it = std::find(known.begin(), known.end(), id);
+    if (it == known.end()) {
+      throw InputError(
+          "--query",
+          "",
+          "\"" + id + "\"",
+          "a query of " + dataset.file.string() + ", e.g. \"" + NearestName(id, known) + "\"");
+    }
+    const auto q = static_cast<std::size_t>(it - known.begin());
+    if (!dataset.queries[q].truth) {
+      throw InputError(dataset.file.string(),
+                       "queries[" + std::to_string(q) + "].truth",
+                       "none",
+                       "the truth of \"" + id + "\": a study compares a score with it");
+    }
+    queries.push_back(q);
+  }
+  if (queries.empty()) {
+    throw InputError(dataset.file.string(),
+                     "queries",
+                     "no query with a truth",
+                     "truths: a study compares a score with them");
+  }
+  return queries;
+}
+
+std::vector<ScoreStudy> RunStudy(const Dataset& dataset,
+                                 std::span<const std::size_t> queries,
+                                 const Localizer& localizer,
+                                 std::span<const ScoreChoice> scores,
+                                 const StudyOptions& options,
+                                 const StudyProgressFunction& progress) {
+  std::vector<ScoreStudy> studies;
+  for (const std::size_t q : queries) {
+    const Query& query = dataset.queries[q];
+    const QueryStudy of_query(
+        query, StudyInput(query, localizer.options(), options), localizer, options);
+    for (std::size_t s = 0; s < scores.size(); ++s) {
+      ScoreStudy study = of_query.Map(scores[s]);
+      of_query.AddSampled(scores[s], study);
+      if (options.explore) of_query.AddExplored(scores[s], study);
+      study.query = q;
+      study.score = s;
+      study.set = query.set;
+      studies.push_back(std::move(study));
+      if (progress) progress({studies.size(), queries.size() * scores.size()});
+    }
+  }
+  return studies;
+}
+
+std::vector<VariedStudy> RunVariations(const Dataset& dataset,
+                                       std::span<const std::size_t> queries,
+                                       const Localizer& localizer,
+                                       std::span<const ScoreChoice> scores,
+                                       std::span<const Variation> variations,
+                                       const StudyOptions& options,
+                                       const StudyProgressFunction& progress) {
+  std::vector<VariedStudy> studies;
+  std::size_t levels = 0;
+  for (const Variation& variation : variations) levels += variation.levels.size();
+  const std::size_t total = levels * queries.size() * scores.size();
+  const CityModel& model = localizer.scene().model();
+  for (std::size_t v = 0; v < variations.size(); ++v) {
+    const Variation& variation = variations[v];
+    for (std::size_t l = 0; l < variation.levels.size(); ++l) {
+      const std::string& level = variation.levels[l];
+      std::optional<CityModel> changed;
+      if (ChangesModel(variation)) changed = VariedModel(model, variation, level, options.seed);
+      std::optional<HeightGrid> dtm;
+      if (localizer.dtm() != nullptr) dtm = *localizer.dtm();
+      const Localizer varied(changed ? *changed : model,
+                             std::move(dtm),
+                             VariedOptions(localizer.options(), variation, level));
+      for (const std::size_t q : queries) {
+        const Query& query = dataset.queries[q];
+        LocalizationInput input = StudyInput(query, varied.options(), options);
+        input.picture = VariedPicture(input.picture, variation, level, options.seed, query.id);
+        input.camera = VariedCamera(input.camera, variation, level);
+        const QueryStudy of_query(query, input, varied, options);
+        for (std::size_t s = 0; s < scores.size(); ++s) {
+          ScoreChoice choice = scores[s];
+          choice.options.evidence = varied.options().score.evidence;
+          ScoreStudy study = of_query.Map(choice);
+          study.query = q;
+          study.score = s;
+          study.set = query.set;
+          study.map = {};
+          studies.push_back({v, l, std::move(study)});
+          if (progress) progress({studies.size(), total});
+        }
+      }
+    }
+  }
+  return studies;
+}
+
+}  // namespace ridgeline
