@@ -150,6 +150,16 @@ void DrawSeries(const ChartSeries& series, const Frame& frame, cv::Mat& picture)
   }
 }
 
+// From the least value to the worst tenth, which shares one colour: a few bad places would leave no
+// colours to the good ones.
+Range ScaleOf(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  if (values.empty()) return {0.0, 1.0};
+  std::sort(values.begin(), values.end());
+  const Range range{values.front(), values[values.size() * 9 / 10]};
+  return range.upper > range.lower ? range : Range{range.lower - 0.5, range.lower + 0.5};
+}
+
 void DrawMark(GridPicture::Mark mark, cv::Point at, cv::Mat& picture) {
   for (const bool rim : {true, false}) {
     const cv::Scalar color = rim ? cv::Scalar::all(255) : ColorOf(mark.color);
@@ -230,21 +240,15 @@ void DrawGrid(const GridPicture& grid, const cv::Rect& area, cv::Mat& picture) {
   frame.x = {grid.first_east_m - half, grid.first_east_m + (grid.columns - 0.5) * grid.spacing_m};
   frame.y = {grid.first_north_m - half, grid.first_north_m + (grid.rows - 0.5) * grid.spacing_m};
 
-  Range range{INFINITY, -INFINITY};
-  for (const double value : grid.values) {
-    if (!std::isfinite(value)) continue;
-    range.lower = std::min(range.lower, value);
-    range.upper = std::max(range.upper, value);
-  }
-  if (!(range.upper > range.lower)) range = {range.lower - 0.5, range.lower + 0.5};
-  if (!std::isfinite(range.lower)) range = {0.0, 1.0};
+  const Range range = ScaleOf(grid.values);
   cv::Mat shades(grid.rows, grid.columns, CV_8U);
   cv::Mat known(grid.rows, grid.columns, CV_8U);
   for (int r = 0; r < grid.rows; ++r) {
     for (int c = 0; c < grid.columns; ++c) {
       const double value = grid.values[static_cast<std::size_t>(r) * grid.columns + c];
       const bool is_known = std::isfinite(value);
-      const double share = is_known ? (value - range.lower) / (range.upper - range.lower) : 0.0;
+      const double share =
+          is_known ? std::min(1.0, (value - range.lower) / (range.upper - range.lower)) : 0.0;
       shades.at<uchar>(grid.rows - 1 - r, c) = cv::saturate_cast<uchar>(255.0 * (1.0 - share));
       known.at<uchar>(grid.rows - 1 - r, c) = is_known ? 255 : 0;
     }
@@ -288,11 +292,12 @@ void DrawGrid(const GridPicture& grid, const cv::Rect& area, cv::Mat& picture) {
     cv::line(picture, {bar.br().x, y}, {bar.br().x + 4, y}, kDim, 1);
     Write(picture, NumberText(k * step, step), {bar.br().x + 7, y + 4});
   }
+  Write(picture, "and worse", {bar.x - 4, bar.br().y + 18}, 0.0, kDim);
   WriteUp(picture, grid.value_label, {bar.br().x + 58, bar.y + bar.height / 2});
 
   Write(picture, grid.title, {area.x + 8, area.y + 20}, 0.0, kInk, 0.5);
   Write(picture, grid.note, {area.x + 8, area.y + 40}, 0.0, kDim);
-  int at = frame.box.x;
+  int at = area.x + 16;
   for (const GridPicture::Mark& mark : grid.marks) {
     DrawMark(mark, frame.At(mark.east_m, mark.north_m), picture);
     DrawMark(mark, {at + 8, area.y + 58}, picture);

@@ -40,7 +40,7 @@ struct Chart {
 // Draws a chart into a part of a picture (8-bit BGR), with a light background.
 void DrawChart(const Chart& chart, const cv::Rect& area, cv::Mat& picture);
 
-// Values over a grid of positions, best (least) first in the colour scale.
+// Values over a grid of positions; the least is bright, the worst tenth shares one colour.
 struct GridPicture {
   std::string title;
   std::string note;  // below the title

@@ -64,11 +64,13 @@ cv::Mat MapPicture(const StudyNames& names, const ScoreStudy& study) {
     const Eigen::Vector2d m =
         study.minimum.center_in_world.head<2>() - study.prior.position_in_world;
     grid.marks.push_back({"minimum", m.x(), m.y(), 1, kMinimumColor});
-    grid.note = Text("minimum %.2f m and %.2f deg from the truth; ",
+    grid.note = Text("minimum %.2f m, %.2f deg from the truth; ",
                      study.figures->minimum_m,
                      study.figures->minimum_deg) +
-                Text("%.3g %% of the poses score better than the truth's neighbourhood",
-                     100.0 * study.figures->better_share);
+                (std::isnan(study.figures->better_share)
+                     ? "no pose of the map near the truth"
+                     : Text("%.2g %% of all poses score better than near it",
+                            100.0 * study.figures->better_share));
   } else {
     grid.note = "no pose of the map sees the model";
   }
@@ -145,15 +147,27 @@ cv::Mat ScatterPicture(const StudyNames& names,
   constexpr int kWidth = 420;
   constexpr int kHeight = 360;
   cv::Mat picture = ChartPaper(kWidth * static_cast<int>(classes.size()), 2 * kHeight);
+  // One scale for all panels, so that they compare.
+  double least = 1.0;
+  double worst = 0.0;
+  for (const ScoreStudy& study : studies) {
+    if (study.score != score) continue;
+    for (const SampledPose& pose : study.sampled) {
+      least = std::min(least, pose.energy);
+      worst = std::max(worst, pose.energy);
+    }
+  }
+  const double pad = std::max(1e-3, 0.04 * (worst - least));
+  const ChartAxis energy{"energy", least - pad, worst + pad, {}};
   for (std::size_t panel = 0; panel < classes.size(); ++panel) {
     Chart translation;
     translation.title =
         names.scores[score].name + ", " + std::to_string(classes[panel]) + " evaluations a picture";
     translation.x = {"position error [m]", 0.0, {}, {}};
-    translation.y = {"energy", {}, {}, {}};
+    translation.y = energy;
     Chart rotation;
     rotation.x = {"rotation error [deg]", 0.0, {}, {}};
-    rotation.y = {"energy", {}, {}, {}};
+    rotation.y = energy;
     for (std::size_t c = 0; c <= panel; ++c) {
       const int first = c == 0 ? 1 : classes[c - 1] + 1;
       const std::string name = std::to_string(first) + "-" + std::to_string(classes[c]);

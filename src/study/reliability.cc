@@ -108,9 +108,10 @@ std::vector<ErrorBin> Bins(const ScoredMap& map,
     bin.poses = static_cast<int>(members.size());
     std::vector<double> values;
     for (const std::size_t i : members) {
-      bin.home_share += comes_home[i] ? 1.0 / bin.poses : 0.0;
+      bin.home_share += comes_home[i] ? 1.0 : 0.0;
       values.push_back(map.volume.log_ratios[i]);
     }
+    bin.home_share /= bin.poses;
     bin.best_log_ratio = *std::max_element(values.begin(), values.end());
     bin.median_log_ratio = MedianOf(std::move(values));
     bins.push_back(bin);

@@ -200,6 +200,65 @@ TEST(Render, SaysWhatAPoseIs) {
   EXPECT_THAT(outcome.text, HasSubstr("east,north,height,heading,pitch,roll"));
 }
 
+// A study of the town's picture on a small box.
+std::string StudyOfTown(const std::string& more) {
+  return "study " + Quoted(Town() / "dataset.json") +
+         " --perturb 2,2,0,4 --classes 5,10 --set search.map.heading_step_deg=2 " + more;
+}
+
+TEST(Study, WritesTablesPicturesMapsAndAReport) {
+  const fs::path folder = Scratch("study");
+  const Outcome outcome = Ridgeline(
+      StudyOfTown("--quiet --json --score skyline_l1,sky --explore --vary focal=0,5 --out " +
+                  Quoted(folder / "out") + " --report " + Quoted(folder / "study.html")));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  const auto json = nlohmann::json::parse(outcome.text, nullptr, false);
+  ASSERT_FALSE(json.is_discarded()) << outcome.text;
+  EXPECT_EQ(json["scores"].size(), 2u);
+  EXPECT_EQ(json["scores"][1]["score"], "sky");
+  for (const char* file : {"summary.csv",
+                           "figures.csv",
+                           "headings.csv",
+                           "profiles.csv",
+                           "sampled.csv",
+                           "sensitivity.csv",
+                           "sensitivity_summary.csv",
+                           "sensitivity_focal.png",
+                           "score_against_error_sky.png",
+                           "maps/street_000_sky.csv",
+                           "maps/street_000_sky.png",
+                           "maps/street_000_skyline_l1.tif",
+                           "explored/street_000_skyline_l1.png"}) {
+    EXPECT_TRUE(fs::exists(folder / "out" / file)) << file;
+  }
+  EXPECT_GT(fs::file_size(folder / "study.html"), 10000u);
+}
+
+TEST(Study, NamesTheNearestScoreAndCircumstance) {
+  const Outcome score = Ridgeline(StudyOfTown("--score skylin_l1"));
+  EXPECT_EQ(score.exit_code, 2);
+  EXPECT_THAT(score.text, AllOf(HasSubstr("--score"), HasSubstr("skyline_l1")));
+  const Outcome vary = Ridgeline(StudyOfTown("--vary focul"));
+  EXPECT_EQ(vary.exit_code, 2);
+  EXPECT_THAT(vary.text, AllOf(HasSubstr("--vary"), HasSubstr("focal")));
+}
+
+TEST(Study, NeedsATruthAndAPlaceToWrite) {
+  const fs::path folder = Scratch("study bad");
+  auto dataset = nlohmann::json::parse(std::ifstream(Town() / "dataset.json"));
+  for (auto& query : dataset["queries"]) query.erase("truth");
+  std::ofstream(Town() / "no_truth.json") << dataset;
+  const Outcome truth = Ridgeline("study " + Quoted(Town() / "no_truth.json"));
+  EXPECT_EQ(truth.exit_code, 2);
+  EXPECT_THAT(truth.text, HasSubstr("no query with a truth"));
+  std::ofstream(folder / "file") << "not a folder";
+  const Outcome out = Ridgeline(StudyOfTown("--out " + Quoted(folder / "file")));
+  EXPECT_EQ(out.exit_code, 2);
+  EXPECT_THAT(out.text, HasSubstr("--out"));
+  const Outcome report = Ridgeline(StudyOfTown("--report " + Quoted(folder / "none" / "x.html")));
+  EXPECT_EQ(report.exit_code, 2);
+}
+
 TEST(Completion, ShellsAcceptTheScripts) {
   const fs::path folder = Scratch("completion");
   EXPECT_EQ(Ridgeline("completion bash > " + Quoted(folder / "bash")).exit_code, 0);
