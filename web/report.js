@@ -42,9 +42,12 @@
   $('subtitle').textContent = [summary.version, summary.crs].filter(Boolean).join(' · ');
   const count = (outcome) => summary.runs.filter((r) => r.outcome === outcome).length;
   const withTruth = summary.runs.length - count('unknown');
+  // A score study localizes nothing: its runs are maps, its figures and plots its own.
+  const isStudy = summary.runs.length > 0 && summary.runs.every((r) => r.confidence === null);
   const parts = [];
   if (withTruth > 0) {
-    parts.push(`${count('right')} of ${withTruth} within 2 m and 2°`);
+    parts.push(`${count('right')} of ${withTruth} ` +
+      (isStudy ? 'maps have their minimum within 2 m and 2°' : 'within 2 m and 2°'));
     if (count('wrong')) parts.push(`${count('wrong')} wrong`);
   }
   if (count('abstained')) parts.push(`${count('abstained')} abstained`);
@@ -68,8 +71,6 @@
   }
 
   // --- plots ---
-  // A score study localizes nothing: its plots are its own.
-  const isStudy = summary.runs.length > 0 && summary.runs.every((r) => r.confidence === null);
   if (typeof Plotly === 'undefined') {
     $('noplots').hidden = false;
   } else {
@@ -94,9 +95,11 @@
   }
 
   // --- tables ---
-  for (const t of summary.tables) {
-    $('tables').append(make('h2', '', t.title), table(t.rows, t.header));
-  }
+  summary.tables.forEach((t, i) => {
+    // What a study is made for comes first.
+    const place = isStudy && i === 0 ? $('verdict') : $('tables');
+    place.append(make('h2', '', t.title), table(t.rows, t.header));
+  });
 
   // --- gallery ---
   let filter = 'all';

@@ -228,6 +228,17 @@ void DrawChart(const Chart& chart, const cv::Rect& area, cv::Mat& picture) {
   }
 }
 
+void DrawLegend(const std::vector<LegendEntry>& entries, const cv::Rect& area, cv::Mat& picture) {
+  cv::Point at = area.tl() + cv::Point(12, 20);
+  for (const LegendEntry& entry : entries) {
+    const int width = 19 + TextSize(entry.name).width + 18;
+    if (at.x + width > area.br().x) at = {area.x + 12, at.y + 20};
+    cv::rectangle(picture, cv::Rect(at.x, at.y - 9, 14, 8), ColorOf(entry.color), cv::FILLED);
+    Write(picture, entry.name, {at.x + 19, at.y});
+    at.x += width;
+  }
+}
+
 void DrawGrid(const GridPicture& grid, const cv::Rect& area, cv::Mat& picture) {
   // Square cells, room for labels left and below, for the scale on the right.
   const int width = area.width - 66 - 96;
@@ -303,6 +314,9 @@ void DrawGrid(const GridPicture& grid, const cv::Rect& area, cv::Mat& picture) {
     DrawMark(mark, {at + 8, area.y + 58}, picture);
     Write(picture, mark.name, {at + 22, area.y + 63});
     at += 22 + TextSize(mark.name).width + 22;
+  }
+  if (cv::countNonZero(known) < static_cast<int>(known.total())) {
+    Write(picture, "grey: not admissible", {at, area.y + 63}, 0.0, kDim);
   }
 }
 

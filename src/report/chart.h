@@ -40,6 +40,13 @@ struct Chart {
 // Draws a chart into a part of a picture (8-bit BGR), with a light background.
 void DrawChart(const Chart& chart, const cv::Rect& area, cv::Mat& picture);
 
+// Names and colours in lines of an area, as many as are needed; for panels that share them.
+struct LegendEntry {
+  std::string name;
+  Rgb color;
+};
+void DrawLegend(const std::vector<LegendEntry>& entries, const cv::Rect& area, cv::Mat& picture);
+
 // Values over a grid of positions; the least is bright, the worst tenth shares one colour.
 struct GridPicture {
   std::string title;

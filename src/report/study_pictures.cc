@@ -203,8 +203,14 @@ cv::Mat SensitivityPicture(const StudyNames& names,
   // Recall first, then the median of each figure.
   constexpr std::size_t kPanels = kFigures + 2;
   const Variation& varied = names.variations[variation];
-  cv::Mat picture = ChartPaper(kWidth * kColumns,
-                               kHeight * static_cast<int>((kPanels + kColumns - 1) / kColumns));
+  const int top = 32 + 20 * static_cast<int>(names.scores.size() / 8);
+  constexpr int kRows = static_cast<int>((kPanels + kColumns - 1) / kColumns);
+  cv::Mat picture = ChartPaper(kWidth * kColumns, top + kHeight * kRows);
+  std::vector<LegendEntry> legend;
+  for (std::size_t s = 0; s < names.scores.size(); ++s) {
+    legend.push_back({names.scores[s].name, SeriesColor(s)});
+  }
+  DrawLegend(legend, {0, 0, picture.cols, top}, picture);
   for (std::size_t panel = 0; panel < kPanels; ++panel) {
     Chart chart;
     chart.x = {varied.meaning, {}, {}, varied.levels};
@@ -224,7 +230,7 @@ cv::Mat SensitivityPicture(const StudyNames& names,
       if (panel - 2 < 5) chart.y.lower = 0.0;
     }
     for (std::size_t s = 0; s < names.scores.size(); ++s) {
-      ChartSeries series{names.scores[s].name, SeriesColor(s), {}, {}, true, true};
+      ChartSeries series{"", SeriesColor(s), {}, {}, true, true};
       for (const LevelSummary& entry : summaries) {
         if (entry.variation != variation || entry.score != s) continue;
         series.x.push_back(static_cast<double>(entry.level));
@@ -236,7 +242,7 @@ cv::Mat SensitivityPicture(const StudyNames& names,
     }
     const int column = static_cast<int>(panel) % kColumns;
     const int row = static_cast<int>(panel) / kColumns;
-    DrawChart(chart, {column * kWidth, row * kHeight, kWidth, kHeight}, picture);
+    DrawChart(chart, {column * kWidth, top + row * kHeight, kWidth, kHeight}, picture);
   }
   return picture;
 }

@@ -21,16 +21,16 @@ std::string Text(const char* format, double value) {
   return text;
 }
 
-std::string Percent(double share) { return Text("%.0f %%", 100.0 * share); }
+std::string Percent(double share) { return Text("%.0f\u00a0%%", 100.0 * share); }
 // One pose of 18 000 is 0.006 %.
 std::string SmallPercent(double share) {
-  return share == 0.0 ? "0 %" : Text("%.2g %%", 100.0 * share);
+  return share == 0.0 ? "0\u00a0%" : Text("%.2g\u00a0%%", 100.0 * share);
 }
 
 std::vector<std::string> FigureCells(const std::array<double, kFigures>& values) {
-  return {Text("%.2f m", values[0]) + Text(", %.2f°", values[1]),
+  return {Text("%.2f\u00a0m", values[0]) + Text(", %.2f°", values[1]),
           SmallPercent(values[2]),
-          Text("%.0f m", values[3]) + Text(", %.0f°", values[4]),
+          Text("%.0f\u00a0m", values[3]) + Text(", %.0f°", values[4]),
           Text("%.2f", values[5]),
           Text("%.2f", values[6])};
 }
@@ -40,7 +40,7 @@ const std::vector<std::string> kFigureCellNames = {
 ReportTable ScoreTable(std::span<const StudySummary> summaries) {
   ReportTable table;
   table.title = "Scores: where the map's minimum lies, and medians";
-  table.header = {"score", "set", "queries", "2 m, 2°", "5 m, 5°", "9 m, 10°"};
+  table.header = {"score", "set", "queries", "2\u00a0m, 2°", "5\u00a0m, 5°", "9\u00a0m, 10°"};
   table.header.insert(table.header.end(), kFigureCellNames.begin(), kFigureCellNames.end());
   table.header.push_back("s per map");
   for (const StudySummary& summary : summaries) {
@@ -77,7 +77,7 @@ ReportTable QueryTable(const StudyNames& names, std::span<const ScoreStudy> stud
 ReportTable SensitivityTable(const StudyNames& names, std::span<const LevelSummary> levels) {
   ReportTable table;
   table.title = "Sensitivity: one circumstance changed, all others as they are";
-  table.header = {"changed", "level", "score", "2 m, 2°", "5 m, 5°", "9 m, 10°"};
+  table.header = {"changed", "level", "score", "2\u00a0m, 2°", "5\u00a0m, 5°", "9\u00a0m, 10°"};
   table.header.insert(table.header.end(), kFigureCellNames.begin(), kFigureCellNames.end());
   table.header.push_back("model edges in view");
   for (const LevelSummary& entry : levels) {
@@ -140,21 +140,50 @@ ReportPlot HomePlot(const StudyNames& names,
   plot.x_label = x_label;
   plot.y_label = "share of the poses [%]";
   for (std::size_t s = 0; s < names.scores.size(); ++s) {
-    std::map<double, std::pair<double, int>> by_error;
+    struct Count {
+      double home = 0.0;
+      int poses = 0;
+      int queries = 0;
+    };
+    std::map<double, Count> by_error;
+    int queries = 0;
     for (const ScoreStudy& study : studies) {
       if (study.score != s) continue;
+      ++queries;
       for (const ErrorBin& bin : study.*bins) {
-        auto& [home, poses] = by_error[0.5 * (bin.lower + bin.upper)];
-        home += bin.home_share * bin.poses;
-        poses += bin.poses;
+        Count& count = by_error[0.5 * (bin.lower + bin.upper)];
+        count.home += bin.home_share * bin.poses;
+        count.poses += bin.poses;
+        ++count.queries;
       }
     }
     ReportSeries series;
     series.name = names.scores[s].name;
     series.line = true;
-    for (const auto& [error, counts] : by_error) {
+    for (const auto& [error, count] : by_error) {
+      if (2 * count.queries < queries) continue;  // the corners of a few boxes
       series.x.push_back(error);
-      series.y.push_back(100.0 * counts.first / counts.second);
+      series.y.push_back(100.0 * count.home / count.poses);
+    }
+    plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
+ReportPlot EdgesPlot(const StudyNames& names, std::span<const ScoreStudy> studies) {
+  ReportPlot plot;
+  plot.title = "Error against the model's edges in view";
+  plot.note = "Few edges in view leave a score little to compare; one point per query.";
+  plot.x_label = "model edges in the picture, at the truth";
+  plot.y_label = "minimum to truth [m]";
+  for (std::size_t s = 0; s < names.scores.size(); ++s) {
+    ReportSeries series;
+    series.name = names.scores[s].name;
+    for (const ScoreStudy& study : studies) {
+      if (study.score != s || !study.figures) continue;
+      series.x.push_back(study.visible_edges);
+      series.y.push_back(study.figures->minimum_m);
+      series.labels.push_back(names.dataset.queries[study.query].id);
     }
     plot.series.push_back(std::move(series));
   }
@@ -234,7 +263,7 @@ std::vector<std::pair<std::string, std::string>> FactsOf(const ScoreStudy& study
     facts = {{"result", "the map's minimum, not refined"},
              {"better poses than the truth's neighbourhood", SmallPercent(r.better_share)},
              {"a local search comes home from",
-              Text("%.0f m", r.basin_m) + Text(", %.0f°", r.basin_deg)},
+              Text("%.0f\u00a0m", r.basin_m) + Text(", %.0f°", r.basin_deg)},
              {"margin of the best mode over the second", Text("%.2f", r.margin)},
              {"rank correlation of energy with error", Text("%.2f", r.rank_correlation)},
              {"poses of the map", std::to_string(r.poses)}};
@@ -267,7 +296,7 @@ ReportData StudyReport(const ReportOrigin& origin,
       {"queries", std::to_string(studies.size() / names.scores.size())},
       {"scores", std::to_string(names.scores.size())},
       {"prior drawn within",
-       Text("± %g m", options.perturb.east_m) + Text(", ± %g°", options.perturb.heading_deg)}};
+       Text("±\u00a0%g\u00a0m", options.perturb.east_m) + Text(", ±\u00a0%g°", options.perturb.heading_deg)}};
   data.tables = {ScoreTable(summaries)};
   for (std::size_t i = 0; i < studies.size(); ++i) {
     ReportRun& run = data.runs[i];
@@ -291,6 +320,7 @@ ReportData StudyReport(const ReportOrigin& origin,
                                 &ScoreStudy::by_angle,
                                 "From which headings a local search comes home",
                                 "angle from the truth [deg]; positions within 2 m"));
+  data.plots.push_back(EdgesPlot(names, studies));
   for (std::size_t v = 0; v < names.variations.size(); ++v) {
     data.plots.push_back(SensitivityPlot(names, levels, v));
   }
