@@ -137,6 +137,8 @@ void DrawAxes(const Chart& chart, const Frame& frame, cv::Mat& picture) {
 void DrawSeries(const ChartSeries& series, const Frame& frame, cv::Mat& picture) {
   cv::Mat inside = picture(frame.box);
   const cv::Scalar color = ColorOf(series.color);
+  constexpr std::size_t kMany = 600;
+  const int radius = series.line ? 4 : series.x.size() > kMany ? 1 : 2;
   std::optional<cv::Point> last;
   for (std::size_t i = 0; i < series.x.size(); ++i) {
     if (!std::isfinite(series.x[i]) || !std::isfinite(series.y[i])) {
@@ -145,7 +147,7 @@ void DrawSeries(const ChartSeries& series, const Frame& frame, cv::Mat& picture)
     }
     const cv::Point at = frame.At(series.x[i], series.y[i]) - frame.box.tl();
     if (series.line && last) cv::line(inside, *last, at, color, 2, cv::LINE_AA);
-    if (series.points) cv::circle(inside, at, series.line ? 4 : 2, color, cv::FILLED, cv::LINE_AA);
+    if (series.points) cv::circle(inside, at, radius, color, cv::FILLED, cv::LINE_AA);
     last = at;
   }
 }

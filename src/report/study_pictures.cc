@@ -15,6 +15,9 @@ constexpr Rgb kTruthColor{213, 40, 40};
 constexpr Rgb kMinimumColor{20, 20, 20};
 constexpr Rgb kPriorColor{110, 110, 110};
 
+// Of equal size, for the median error at an energy.
+constexpr std::size_t kEnergyGroups = 12;
+
 std::string Text(const char* format, double a, double b = 0.0) {
   char text[96];
   std::snprintf(text, sizeof text, format, a, b);
@@ -187,6 +190,16 @@ cv::Mat ScatterPicture(const StudyNames& names,
       translation.series.push_back(std::move(points));
       rotation.series.push_back(std::move(turned));
     }
+    ChartSeries median{"median error", SeriesColor(6), {}, {}, true, false};
+    ChartSeries median_turned = median;
+    for (const EnergyGroup& group : ByEnergy(studies, score, classes[panel], kEnergyGroups)) {
+      median.x.push_back(group.translation_m);
+      median_turned.x.push_back(group.rotation_deg);
+      median.y.push_back(group.energy);
+      median_turned.y.push_back(group.energy);
+    }
+    translation.series.push_back(std::move(median));
+    rotation.series.push_back(std::move(median_turned));
     const int left = kWidth * static_cast<int>(panel);
     DrawChart(translation, {left, 0, kWidth, kHeight}, picture);
     DrawChart(rotation, {left, kHeight, kWidth, kHeight}, picture);

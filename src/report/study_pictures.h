@@ -19,7 +19,8 @@ cv::Mat MapPicture(const StudyNames& names, const ScoreStudy& study);
 cv::Mat ExploredPicture(const StudyNames& names, const ScoreStudy& study);
 
 // Score against error of the sampled searches of all queries, after each class of evaluations from
-// left to right (Loeper et al., Fig. 5); translation above, rotation below.
+// left to right (Loeper et al., Fig. 5), with the median error at an energy; translation above,
+// rotation below.
 cv::Mat ScatterPicture(const StudyNames& names,
                        std::span<const ScoreStudy> studies,
                        std::size_t score,

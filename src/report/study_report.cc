@@ -101,8 +101,8 @@ ReportPlot ScatterPlot(const StudyNames& names,
   plot.title = names.scores[score].name +
                (rotation ? ": score against rotation error" : ": score against position error");
   plot.note =
-      "Poses that a TPE search looked at, by when it did, as in Fig. 5 of Loeper et al. Low "
-      "energies should gather at small errors.";
+      "Poses that a TPE search looked at, by when it did, as in Fig. 5 of Loeper et al. Where a "
+      "score can be trusted, the line of median errors falls to the left.";
   plot.x_label = rotation ? "rotation error [deg]" : "position error [m]";
   plot.y_label = "energy";
   for (std::size_t c = 0; c < classes.size(); ++c) {
@@ -123,6 +123,15 @@ ReportPlot ScatterPlot(const StudyNames& names,
     }
     plot.series.push_back(std::move(series));
   }
+  constexpr std::size_t kGroups = 12;
+  ReportSeries median;
+  median.name = "median error";
+  median.line = true;
+  for (const EnergyGroup& group : ByEnergy(studies, score, classes.back(), kGroups)) {
+    median.x.push_back(rotation ? group.rotation_deg : group.translation_m);
+    median.y.push_back(group.energy);
+  }
+  plot.series.push_back(std::move(median));
   return plot;
 }
 
@@ -292,11 +301,11 @@ ReportData StudyReport(const ReportOrigin& origin,
                                 localizer,
                                 RangesOf(localizer.options().search.space, options.perturb),
                                 runs);
-  data.facts = {
-      {"queries", std::to_string(studies.size() / names.scores.size())},
-      {"scores", std::to_string(names.scores.size())},
-      {"prior drawn within",
-       Text("±\u00a0%g\u00a0m", options.perturb.east_m) + Text(", ±\u00a0%g°", options.perturb.heading_deg)}};
+  data.facts = {{"queries", std::to_string(studies.size() / names.scores.size())},
+                {"scores", std::to_string(names.scores.size())},
+                {"prior drawn within",
+                 Text("±\u00a0%g\u00a0m", options.perturb.east_m) +
+                     Text(", ±\u00a0%g°", options.perturb.heading_deg)}};
   data.tables = {ScoreTable(summaries)};
   for (std::size_t i = 0; i < studies.size(); ++i) {
     ReportRun& run = data.runs[i];

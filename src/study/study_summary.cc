@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/study_summary.h"
 
+#include <algorithm>
 #include <map>
 #include <tuple>
 
@@ -72,6 +73,36 @@ std::vector<StudySummary> SummariesOf(std::span<const ScoreStudy> studies,
     }
   }
   return summaries;
+}
+
+std::vector<EnergyGroup> ByEnergy(std::span<const ScoreStudy> studies,
+                                  std::size_t score,
+                                  int evaluations,
+                                  std::size_t groups) {
+  std::vector<SampledPose> poses;
+  for (const ScoreStudy& study : studies) {
+    if (study.score != score) continue;
+    for (const SampledPose& pose : study.sampled) {
+      if (pose.evaluation <= evaluations) poses.push_back(pose);
+    }
+  }
+  std::stable_sort(poses.begin(), poses.end(), [](const SampledPose& a, const SampledPose& b) {
+    return a.energy < b.energy;
+  });
+  groups = std::min(groups, poses.size());
+  std::vector<EnergyGroup> result;
+  for (std::size_t g = 0; g < groups; ++g) {
+    std::array<std::vector<double>, 3> values;
+    for (std::size_t i = g * poses.size() / groups; i < (g + 1) * poses.size() / groups; ++i) {
+      values[0].push_back(poses[i].energy);
+      values[1].push_back(poses[i].translation_m);
+      values[2].push_back(poses[i].rotation_deg);
+    }
+    result.push_back({MedianOf(std::move(values[0])),
+                      MedianOf(std::move(values[1])),
+                      MedianOf(std::move(values[2]))});
+  }
+  return result;
 }
 
 std::vector<LevelSummary> LevelSummariesOf(std::span<const VariedStudy> studies,

@@ -48,6 +48,20 @@ std::vector<StudySummary> SummariesOf(std::span<const ScoreStudy> studies,
                                       std::span<const ScoreChoice> scores,
                                       const std::string& dataset_name);
 
+// Sampled poses of about one energy.
+struct EnergyGroup {
+  double energy = 0.0;  // medians
+  double translation_m = 0.0;
+  double rotation_deg = 0.0;
+};
+
+// The poses of a score's sampled searches up to an evaluation, in up to `groups` groups of equal
+// size, the least energy first: a score that reflects the pose has its least errors there.
+std::vector<EnergyGroup> ByEnergy(std::span<const ScoreStudy> studies,
+                                  std::size_t score,
+                                  int evaluations,
+                                  std::size_t groups);
+
 // One level of one variation and one score, over all queries.
 struct LevelSummary {
   std::size_t variation = 0;

@@ -154,5 +154,23 @@ TEST(StudySummary, CountsQueriesWithoutFiguresAsNotFound) {
   EXPECT_DOUBLE_EQ(summaries[1].median[0], 4.0);
 }
 
+TEST(StudySummary, GroupsByEnergyAreOfEqualSize) {
+  std::vector<ScoreStudy> studies(2);
+  for (int i = 0; i < 9; ++i) {
+    // Energies 0.8, 0.7, ..., 0; errors 10 and 20 times the energy.
+    studies[i % 2].sampled.push_back({i + 1, 10, 0.8 - 0.1 * i, 8.0 - i, 8.0 - i, 16.0 - 2.0 * i});
+  }
+  studies[0].sampled.push_back({11, 20, -1.0, 99.0, 99.0, 99.0});  // too late
+  const auto groups = ByEnergy(studies, 0, 10, 3);
+  ASSERT_EQ(groups.size(), 3u);
+  for (int g = 0; g < 3; ++g) {
+    EXPECT_NEAR(groups[g].energy, 0.1 + 0.3 * g, 1e-9);
+    EXPECT_NEAR(groups[g].translation_m, 1.0 + 3.0 * g, 1e-9);
+    EXPECT_NEAR(groups[g].rotation_deg, 2.0 + 6.0 * g, 1e-9);
+  }
+  EXPECT_EQ(ByEnergy(studies, 0, 2, 12).size(), 2u);
+  EXPECT_TRUE(ByEnergy(studies, 1, 10, 3).empty());
+}
+
 }  // namespace
 }  // namespace ridgeline
