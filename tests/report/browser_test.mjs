@@ -78,6 +78,19 @@ for (const file of ['one.html', 'none.html', 'bare.html', 'abstained.html']) {
   await done();
 }
 
+for (const width of [1280, 400]) {
+  const {page, done} = await open('study.html', width, 'dark');
+  assert.match(await page.textContent('#sentence'), /maps have their minimum within 2 m and 2°/);
+  assert.equal(await page.locator('#verdict table').count(), 1, 'figures come first');
+  assert.doesNotMatch(await page.textContent('#plots'), /Reliability/);
+  await page.locator('#plots .js-plotly-plot').first().waitFor();
+  await page.locator('#plots figure').last().scrollIntoViewIfNeeded();
+  await page.getByText('fld').first().waitFor();
+  await page.locator('.card').first().click();
+  await page.locator('#detail .js-plotly-plot').nth(1).waitFor();
+  await done();
+}
+
 const {page, done} = await open('thousand.html', 1280, 'light');
 assert.equal(await page.locator('.card').count(), 60);
 await page.click('#more');

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "report/example_report.h"
@@ -43,6 +44,18 @@ TEST(ReportJson, ReadsBackWithTheStrangestNames) {
   EXPECT_EQ(summary["runs"][3]["outcome"], "wrong");
   EXPECT_EQ(summary["runs"][7]["outcome"], "abstained");
   EXPECT_TRUE(summary["runs"][7]["translation"].is_null());
+}
+
+TEST(ReportJson, ARunWithoutConfidenceHasNull) {
+  ReportData data = testing::ExampleReport(2);
+  data.runs[0].confidence = NAN;
+  data.plots[0].x_names = {"a", "b"};
+  data.runs[0].plots = data.plots;
+  const auto summary = nlohmann::json::parse(SummaryJson(data));
+  EXPECT_TRUE(summary["runs"][0]["confidence"].is_null());
+  EXPECT_EQ(summary["plots"][0]["xNames"].size(), 2u);
+  const auto detail = nlohmann::json::parse(RunDetailJson(data.runs[0]));
+  EXPECT_EQ(detail["plots"][0]["xNames"][1], "b");
 }
 
 TEST(ReportJson, BytesThatAreNotUtf8DoNotBreakIt) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes example reports for the browser test: write_example FOLDER.
 #include <filesystem>
+#include <limits>
 
 #include "report/example_report.h"
 #include "report/html_report.h"
@@ -33,4 +34,17 @@ int main(int argc, char** argv) {
     run.rotation_deg.reset();
   }
   WriteHtmlReport(abstained, folder / "abstained.html");
+  ridgeline::ReportData study = ExampleReport(6);
+  for (ridgeline::ReportRun& run : study.runs) {
+    run.confidence = std::numeric_limits<double>::quiet_NaN();
+    run.plots = study.plots;
+  }
+  study.plots.push_back({"Sensitivity",
+                         "One circumstance changed.",
+                         "detector",
+                         "share [%]",
+                         false,
+                         {"lsd", "fld"},
+                         {{"evidence", {0, 1}, {80, 70}, {}, true}}});
+  WriteHtmlReport(study, folder / "study.html");
 }
