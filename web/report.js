@@ -42,12 +42,11 @@
   $('subtitle').textContent = [summary.version, summary.crs].filter(Boolean).join(' · ');
   const count = (outcome) => summary.runs.filter((r) => r.outcome === outcome).length;
   const withTruth = summary.runs.length - count('unknown');
-  // A score study localizes nothing: its runs are maps, its figures and plots its own.
+  // Score studies and skylines have no confidence: their figures and plots are their own.
   const isStudy = summary.runs.length > 0 && summary.runs.every((r) => r.confidence === null);
   const parts = [];
   if (withTruth > 0) {
-    parts.push(`${count('right')} of ${withTruth} ` +
-      (isStudy ? 'maps have their minimum within 2 m and 2°' : 'within 2 m and 2°'));
+    parts.push(`${count('right')} of ${withTruth} ${summary.rightText}`);
     if (count('wrong')) parts.push(`${count('wrong')} wrong`);
   }
   if (count('abstained')) parts.push(`${count('abstained')} abstained`);
@@ -96,7 +95,7 @@
 
   // --- tables ---
   summary.tables.forEach((t, i) => {
-    // What a study is made for comes first.
+    // Without plots of the localization the first table is what there is to see.
     const place = isStudy && i === 0 ? $('verdict') : $('tables');
     place.append(make('h2', '', t.title), table(t.rows, t.header));
   });

@@ -11,7 +11,10 @@
 #include "cli/progress.h"
 #include "cli/sequence_input.h"
 #include "cli/skyline_output.h"
+#include "cli/skyline_report.h"
+#include "cli/version.h"
 #include "localize/skyline_tracker.h"
+#include "report/html_report.h"
 #include "report/overlay.h"
 #include "report/overlay_layers.h"
 #include "report/picture_file.h"
@@ -26,6 +29,7 @@ struct SkylineArguments {
   ConfigArguments config;
   std::string out;
   std::string video;
+  std::string report;
   bool overlays = false;
   bool columns = false;
   SkylineTrackOptions track;
@@ -43,52 +47,66 @@ constexpr double kPictureRate = 2.0;
 // Writes what is asked for, frame by frame, into the folder.
 class Writer {
  public:
-  Writer(const SkylineArguments& arguments, const fs::path& folder, const SequenceInput& input)
-      : arguments_(arguments), folder_(folder), input_(input) {
+  // `report` may be null.
+  Writer(const SkylineArguments& arguments,
+         const fs::path& folder,
+         const SequenceInput& input,
+         SkylineReport* report)
+      : arguments_(arguments), folder_(folder), input_(input), report_(report) {
     if (!arguments.video.empty()) {
       video_ = std::make_unique<OverlayVideo>(
           folder / arguments.video, input.source->frames_per_second().value_or(kPictureRate));
     }
   }
 
-  void Add(const SkylineFrameResult& result,
+  void Add(std::size_t index,
+           const SkylineFrameResult& result,
            const cv::Mat& picture,
            const SkylineFrame& frame,
            const PinholeCamera& camera) {
     if (arguments_.columns) {
       WriteFileAtomically(folder_ / (result.id + "_skyline.csv"), SkylineColumnsCsv(frame.skyline));
     }
+    const bool reports = report_ != nullptr && report_->Shows(index);
+    if (!video_ && !arguments_.overlays && !reports) return;
+    const std::vector<OverlayLayer> before = LayersBefore(result, frame, camera);
+    const std::vector<OverlayLayer> after = LayersAfter(frame, camera);
+    if (reports) report_->AddPicture(index, result.id, picture, before, after);
     if (!video_ && !arguments_.overlays) return;
-    const cv::Mat drawn = Draw(result, picture, frame, camera);
+    Overlay overlay;
+    overlay.layers = before;
+    overlay.layers.insert(overlay.layers.end(), after.begin(), after.end());
+    overlay.caption = result.id + ": " + result.status;
+    const cv::Mat drawn = DrawOverlay(picture, overlay, OverlayDrawOptions{});
     if (video_) video_->Add(drawn);
     if (arguments_.overlays) WritePicture(drawn, folder_ / (result.id + "_overlay.jpg"));
   }
 
  private:
-  cv::Mat Draw(const SkylineFrameResult& result,
-               const cv::Mat& picture,
-               const SkylineFrame& frame,
-               const PinholeCamera& camera) const {
-    Overlay overlay;
-    overlay.layers.push_back(SkylineLayer(frame.skyline));
-    if (input_.scene && result.start) {
-      OverlayLayer before = ModelSkylineLayer(*input_.scene, camera, frame.start);
-      before.name = "model skyline by the sensors";
-      before.color = {150, 150, 150};
-      overlay.layers.push_back(std::move(before));
-    }
+  std::vector<OverlayLayer> LayersBefore(const SkylineFrameResult& result,
+                                         const SkylineFrame& frame,
+                                         const PinholeCamera& camera) const {
+    if (!input_.scene || !result.start) return {};
+    OverlayLayer before = ModelSkylineLayer(*input_.scene, camera, frame.start);
+    before.name = "model skyline by the sensors";
+    before.color = {150, 150, 150};
+    return {std::move(before)};
+  }
+
+  std::vector<OverlayLayer> LayersAfter(const SkylineFrame& frame,
+                                        const PinholeCamera& camera) const {
+    std::vector<OverlayLayer> layers = {SkylineLayer(frame.skyline)};
     if (input_.scene && frame.match.pose) {
-      OverlayLayer after = ModelSkylineLayer(*input_.scene, camera, *frame.match.pose);
-      after.name = "model skyline after the match";
-      overlay.layers.push_back(std::move(after));
+      layers.push_back(ModelSkylineLayer(*input_.scene, camera, *frame.match.pose));
+      layers.back().name = "model skyline after the match";
     }
-    overlay.caption = result.id + ": " + result.status;
-    return DrawOverlay(picture, overlay, OverlayDrawOptions{});
+    return layers;
   }
 
   const SkylineArguments& arguments_;
   const fs::path folder_;
   const SequenceInput& input_;
+  SkylineReport* const report_;
   std::unique_ptr<OverlayVideo> video_;
 };
 
@@ -138,10 +156,11 @@ SkylineFrameResult ResultOf(const SkylineFrame& frame,
 std::vector<SkylineFrameResult> Track(SequenceInput& input,
                                       const SkylineArguments& arguments,
                                       const fs::path& folder,
+                                      SkylineReport* report,
                                       const Context& context) {
   std::optional<SkylineTracker> tracker;
   if (input.scene) tracker.emplace(*input.scene, arguments.track);
-  Writer writer(arguments, folder, input);
+  Writer writer(arguments, folder, input, report);
   Progress progress(context, "Matching", input.frames.size(), "frames");
   std::vector<SkylineFrameResult> results;
   for (std::size_t i = 0; i < input.frames.size(); ++i) {
@@ -166,7 +185,7 @@ std::vector<SkylineFrameResult> Track(SequenceInput& input,
         result.reason = !tracker ? "" : known.camera ? known.missing : "no camera";
       }
       result.id = known.id;
-      writer.Add(result, picture, frame, camera);
+      writer.Add(i, result, picture, frame, camera);
     }
     result.id = known.id;
     result.truth = known.truth;
@@ -226,6 +245,24 @@ void Report(const SkylineSummary& s, const std::string& out, bool matched, const
   context.Print(line);
 }
 
+std::string CommandOf(const SkylineArguments& arguments) {
+  std::string command = "ridgeline skyline";
+  const auto add = [&](const char* option, const std::string& value) {
+    if (!value.empty()) command += std::string(" ") + option + " " + value;
+  };
+  const SequenceArguments& sequence = arguments.sequence;
+  add("--dataset", sequence.dataset);
+  add("--frames", sequence.frames);
+  for (const std::string& model : sequence.model) add("--model", model);
+  add("--crs", sequence.crs);
+  add("--dtm", sequence.dtm);
+  add("--camera", sequence.camera);
+  add("--sensors", sequence.sensors);
+  add("--config", arguments.config.config);
+  for (const std::string& assignment : arguments.config.set) add("--set", assignment);
+  return command + " --out " + arguments.out;
+}
+
 int RunSkyline(SkylineArguments& arguments, const Context& context) {
   ApplyConfig(arguments.config, [&](OptionVisitor& v) { arguments.Visit(v); });
   arguments.track.Validate();
@@ -242,12 +279,29 @@ int RunSkyline(SkylineArguments& arguments, const Context& context) {
       ReadSequence(arguments.sequence, arguments.sensors, context.threads);
   for (const std::string& warning : input->warnings) context.Warn(warning);
 
+  if (!arguments.report.empty()) TemporaryBeside(arguments.report);  // fails before the work
   const fs::path temporary = TemporaryBeside(out);
   fs::create_directory(temporary);
-  const std::vector<SkylineFrameResult> results = Track(*input, arguments, temporary, context);
+  std::optional<SkylineReport> report;
+  if (!arguments.report.empty()) report.emplace(input->frames.size());
+  const std::vector<SkylineFrameResult> results =
+      Track(*input, arguments, temporary, report ? &*report : nullptr, context);
   WriteFileAtomically(temporary / "frames.csv", SkylineFramesCsv(results));
   CommitFile(temporary, out);
 
+  if (report) {
+    ReportData data = report->Make(results);
+    const SequenceArguments& named = arguments.sequence;
+    data.title = "Skylines of " + (named.dataset.empty() ? named.frames : named.dataset);
+    data.command = CommandOf(arguments);
+    data.version = VersionText();
+    const int epsg = input->model ? input->model->crs.horizontal_epsg : 0;
+    if (epsg != 0) data.crs = "EPSG:" + std::to_string(epsg);
+    data.options_json = OptionsToJson([&](OptionVisitor& v) { arguments.Visit(v); });
+    data.warnings = input->warnings;
+    WriteHtmlReport(data, arguments.report);
+    context.Note("report: " + arguments.report);
+  }
   const SkylineSummary summary = Summarize(results);
   Report(summary, arguments.out, input->scene != nullptr, context);
   return input->scene && summary.matched == 0 ? kExitAbstained : kExitOk;
@@ -271,6 +325,8 @@ void AddSkylineCommand(CLI::App& app, Context& context) {
       ->required()
       ->type_name("DIR");
   command->add_option("--video", arguments->video, "Name of an overlay video in it (.mp4)");
+  command->add_option("--report", arguments->report, "HTML report that opens offline")
+      ->type_name("FILE");
   command->add_flag("--overlays", arguments->overlays, "An overlay picture per frame too");
   command->add_flag("--columns", arguments->columns, "The skyline of each frame too, as CSV");
   AddConfigOptions(*command, arguments->config);

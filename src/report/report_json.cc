@@ -193,6 +193,7 @@ std::string SummaryJson(const ReportData& data) {
                    {"command", data.command},
                    {"version", data.version},
                    {"crs", data.crs},
+                   {"rightText", data.right_text},
                    {"facts", PairsJson(data.facts)},
                    {"runs", runs},
                    {"recall", CurveJson(RecallCurve(data.runs))},

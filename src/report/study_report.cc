@@ -306,6 +306,7 @@ ReportData StudyReport(const ReportOrigin& origin,
                 {"prior drawn within",
                  Text("±\u00a0%g\u00a0m", options.perturb.east_m) +
                      Text(", ±\u00a0%g°", options.perturb.heading_deg)}};
+  data.right_text = "maps have their minimum within 2 m and 2°";
   data.tables = {ScoreTable(summaries)};
   for (std::size_t i = 0; i < studies.size(); ++i) {
     ReportRun& run = data.runs[i];
