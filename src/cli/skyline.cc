@@ -245,6 +245,12 @@ void Report(const SkylineSummary& s, const std::string& out, bool matched, const
   context.Print(line);
 }
 
+// A dataset by its folder, pictures and videos by their own name.
+std::string NameOf(const SequenceArguments& sequence) {
+  if (sequence.dataset.empty()) return fs::path(sequence.frames).filename().string();
+  return fs::absolute(sequence.dataset).parent_path().filename().string();
+}
+
 std::string CommandOf(const SkylineArguments& arguments) {
   std::string command = "ridgeline skyline";
   const auto add = [&](const char* option, const std::string& value) {
@@ -291,8 +297,7 @@ int RunSkyline(SkylineArguments& arguments, const Context& context) {
 
   if (report) {
     ReportData data = report->Make(results);
-    const SequenceArguments& named = arguments.sequence;
-    data.title = "Skylines of " + (named.dataset.empty() ? named.frames : named.dataset);
+    data.title = "Skylines of " + NameOf(arguments.sequence);
     data.command = CommandOf(arguments);
     data.version = VersionText();
     const int epsg = input->model ? input->model->crs.horizontal_epsg : 0;

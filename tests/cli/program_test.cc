@@ -200,6 +200,20 @@ TEST(Render, SaysWhatAPoseIs) {
   EXPECT_THAT(outcome.text, HasSubstr("east,north,height,heading,pitch,roll"));
 }
 
+TEST(Skyline, ReportsFramesWithoutAModelToo) {
+  const fs::path folder = Scratch("skyline report");
+  const Outcome outcome =
+      Ridgeline("skyline --quiet --frames " + Quoted(Town() / "images") + " --out " +
+                Quoted(folder / "out") + " --report " + Quoted(folder / "skyline.html"));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_GT(fs::file_size(folder / "skyline.html"), 10000u);
+  EXPECT_EQ(Ridgeline("skyline --frames " + Quoted(Town() / "images") + " --out " +
+                      Quoted(folder / "other") + " --report " + Quoted(folder / "none" / "x.html"))
+                .exit_code,
+            2);
+  EXPECT_FALSE(fs::exists(folder / "other"));
+}
+
 // A study of the town's picture on a small box.
 std::string StudyOfTown(const std::string& more) {
   return "study " + Quoted(Town() / "dataset.json") +
