@@ -76,7 +76,7 @@ class Comparison {
       const auto fit = [&](const PoseSpace::Offset& start, double tolerance) {
         PoseFitOptions fit_options = settings_.fit;
         fit_options.first_tolerance = tolerance;
-        return FitPose(evidence, localizer_.scene(), space, options.score.evidence.lines,
+        return FitPose({evidence.segments(), evidence.field(), evidence.camera()}, localizer_.scene(), space, options.score.evidence.lines,
                        fit_options, start);
       };
       const double first = settings_.fit.first_tolerance;

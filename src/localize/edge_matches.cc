@@ -48,6 +48,19 @@ double SigmaPx(double inverse_depth, double detection_px, double model_px_m) {
   return std::hypot(detection_px, model_px_m * inverse_depth);
 }
 
+// Of the variance of the mean of `count` observations by a part that they have in common.
+double Inflation(double count, double common) { return 1.0 + std::max(0.0, count - 1.0) * common; }
+
+// Edges that share an error of the model: the corners of a building (its place), and its other
+// edges (their heights).
+std::uint64_t GroupOf(const FeatureEdge& edge, const CityModel& model) {
+  const std::uint32_t surface = edge.surface0 != kNoSurface ? edge.surface0 : edge.surface1;
+  const std::uint64_t building = surface != kNoSurface ? model.surfaces[surface].building : 0;
+  const Eigen::Vector3d d = edge.b - edge.a;
+  const bool is_corner = std::abs(d.z()) > d.head<2>().norm();
+  return 2 * building + (is_corner ? 1 : 0);
+}
+
 }  // namespace
 
 void EdgeMatchOptions::Validate() const {
@@ -189,6 +202,7 @@ std::vector<EdgeMatch> EdgeMatcher::Match(const PositionView& view,
   std::vector<std::vector<Interval>> taken_of_segment(projected.size());
   std::vector<std::vector<Interval>> taken_of_line(segments_.size());
   std::map<std::uint32_t, double> count_of_edge;
+  std::map<std::uint64_t, double> count_of_group;
   std::vector<EdgeMatch> matches;
   for (const Candidate& candidate : candidates) {
     std::vector<Interval>& segment_intervals = taken_of_segment[candidate.segment];
@@ -238,15 +252,18 @@ std::vector<EdgeMatch> EdgeMatcher::Match(const PositionView& view,
     match.weight = std::min(1.0,
                             (candidate.on_segment.last - candidate.on_segment.first) /
                                 (options_.full_overlap_width * camera.width));
+    match.group = GroupOf(scene_.edge(piece.edge), scene_.model());
     count_of_edge[match.edge] += match.weight;
     matches.push_back(match);
   }
-  // The mean of n observations with a common part phi of their variance has the variance
-  // (1 + (n - 1) phi) / n.
   for (EdgeMatch& match : matches) {
     const double sigma_px = 0.5 * (match.sigma_a_px + match.sigma_b_px);
-    const double common = 1.0 - detection_px * detection_px / (sigma_px * sigma_px);
-    match.weight /= 1.0 + std::max(0.0, count_of_edge[match.edge] - 1.0) * std::max(0.0, common);
+    match.common = std::max(0.0, 1.0 - detection_px * detection_px / (sigma_px * sigma_px));
+    match.weight /= Inflation(count_of_edge[match.edge], match.common);
+    count_of_group[match.group] += match.weight;
+  }
+  for (EdgeMatch& match : matches) {
+    match.information = match.weight / Inflation(count_of_group[match.group], match.common);
   }
   return matches;
 }

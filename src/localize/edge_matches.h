@@ -28,8 +28,15 @@ struct EdgeMatch {
   double sigma_b_px = 1.0;
   // Odds that a line in the very place of the edge is the edge's own, not one at random.
   double odds = 1.0;
-  // Share of an independent observation, in (0, 1]: lines along one edge share the model's error.
+  // Share of an independent observation, in (0, 1]: short lines count less, and lines along one
+  // edge share the model's error there.
   double weight = 1.0;
+  // The same for what is known in the end, <= weight: all corners of a building share the error of
+  // its place, its other edges that of its heights. Not the best weight to find a pose with, since a
+  // building of many agreeing edges is seldom a wrong match.
+  double information = 1.0;
+  double common = 0.0;      // share of the variance that is the model's
+  std::uint64_t group = 0;  // of edges that share the model's error
   std::uint32_t edge = 0;  // Scene::edge
   std::uint32_t line = 0;  // index into the picture's segments
 };

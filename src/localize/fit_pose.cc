@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "score/position_view.h"
 
 namespace ridgeline {
 namespace {
@@ -49,17 +50,17 @@ AdjustmentLimits LimitsOf(const PoseSpaceOptions& ranges, const PoseFitOptions& 
 
 class Fitter {
  public:
-  Fitter(const PictureEvidence& evidence,
+  Fitter(const PictureLines& lines,
          const Scene& scene,
          const PoseSpace& space,
          const LineLikelihoodOptions& likelihood,
          const PoseFitOptions& options)
-      : evidence_(evidence),
+      : camera_(lines.camera),
         scene_(scene),
         space_(space),
         options_(options),
         limits_(LimitsOf(space.ranges(), options)),
-        matcher_(evidence.segments(), evidence.field(), scene, likelihood, options.matches) {}
+        matcher_(lines.segments, lines.field, scene, likelihood, options.matches) {}
 
   PoseFit Fit(const PoseSpace::Offset& start) {
     PoseFit fit;
@@ -113,7 +114,7 @@ class Fitter {
     const auto here = space_.PositionAt(x[kEast], x[kNorth], x[kHeight]);
     if (!here) return std::nullopt;
     AdjustmentFrame frame;
-    frame.camera = evidence_.camera();
+    frame.camera = camera_;
     frame.angles = space_.center_angles();
     constexpr double kStepM = 0.5;
     for (int axis = 0; axis < 2; ++axis) {
@@ -142,7 +143,7 @@ class Fitter {
     if (!is_same) {
       constexpr double kMarginDeg = 3.0;
       constexpr double kStepRad = 0.02;
-      const PanoramaRange range = RangeOf(evidence_.camera(), angles,
+      const PanoramaRange range = RangeOf(camera_, angles,
                                           {kMarginDeg, kMarginDeg, kMarginDeg}, kStepRad);
       view_ = ViewFrom(scene_, pose.center_in_world, range, {true, false});
       view_heading_deg_ = angles.heading_deg;
@@ -188,7 +189,7 @@ class Fitter {
     fit.reason = "the matched lines leave open: " + names;
   }
 
-  const PictureEvidence& evidence_;
+  PinholeCamera camera_;
   const Scene& scene_;
   const PoseSpace& space_;
   const PoseFitOptions& options_;
@@ -213,13 +214,13 @@ void PoseFitOptions::Validate() const {
   require("max_overhang_m", max_overhang_m, max_overhang_m >= 0.0, ">= 0");
 }
 
-PoseFit FitPose(const PictureEvidence& evidence,
+PoseFit FitPose(const PictureLines& lines,
                 const Scene& scene,
                 const PoseSpace& space,
                 const LineLikelihoodOptions& likelihood,
                 const PoseFitOptions& options,
                 const PoseSpace::Offset& start) {
-  return Fitter(evidence, scene, space, likelihood, options).Fit(start);
+  return Fitter(lines, scene, space, likelihood, options).Fit(start);
 }
 
 }  // namespace ridgeline

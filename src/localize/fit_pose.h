@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
-#include <vector>
 
 #include "localize/edge_matches.h"
 #include "localize/pose_adjustment.h"
 #include "localize/pose_space.h"
-#include "score/picture_evidence.h"
 
 namespace ridgeline {
 
@@ -56,13 +56,20 @@ struct PoseFit {
   int rounds = 0;
 };
 
+// What is fitted to: the lines of a picture, and where such lines are dense.
+struct PictureLines {
+  std::span<const LineSegment> segments;
+  const OrientedDistanceField& field;  // of the segments
+  PinholeCamera camera;
+};
+
 // Refines a pose by least squares on the distances between the projected visible edges and the
 // picture's lines: edges and lines are matched, the pose is adjusted, and so again (iterative closest
 // lines). What the user knows holds what the picture does not: each free parameter has a normal prior
 // with the standard deviation of its range (half-range / sqrt 3), and stays in its range.
 // The matches are those of the line likelihood, one standard deviation and one share of seen edges
 // for both (LineLikelihoodOptions).
-PoseFit FitPose(const PictureEvidence& evidence,
+PoseFit FitPose(const PictureLines& lines,
                 const Scene& scene,
                 const PoseSpace& space,
                 const LineLikelihoodOptions& likelihood,

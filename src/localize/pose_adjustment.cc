@@ -178,14 +178,17 @@ class Adjuster {
     // Two residuals a match, less the unknowns; with few left over the expected deviation stands.
     constexpr double kMinRedundancy = 4.0;
     const double redundancy = 2.0 * result_.observations - static_cast<double>(free_.size());
-    if (redundancy >= kMinRedundancy) result_.sigma0 = std::sqrt(std::max(sum / redundancy, 1e-12));
+    if (redundancy >= kMinRedundancy) result_.sigma0 = std::sqrt(sum / redundancy);
+    const double scale = std::max(1.0, result_.sigma0);
 
     ceres::Problem problem(Unowned());
     std::deque<ceres::ScaledLoss> losses;
     for (std::size_t i = 0; i < matches_.size(); ++i) {
       if (weights[i] <= 0.0) continue;
       Add(problem, matches_[i],
-          &losses.emplace_back(nullptr, weights[i] / (result_.sigma0 * result_.sigma0),
+          &losses.emplace_back(nullptr,
+                               weights[i] * matches_[i].information / matches_[i].weight /
+                                   (scale * scale),
                                ceres::TAKE_OWNERSHIP));
     }
     AddPriors(problem);

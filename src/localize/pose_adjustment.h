@@ -72,7 +72,8 @@ struct Adjustment {
 // of the matches, each the edge's own line (normally distributed) or one at random, and the priors.
 // The loss of a match is -2 log((1 + odds exp(-s / 2)) / (1 + odds)) of its squared residuals s, so
 // that what is far away has no influence. The covariance is the inverse of the normal matrix, with
-// the lines' part scaled by sigma0^2.
+// the lines' part scaled by sigma0^2 if that is above 1: below it says little, since the lines nearest
+// to the edges were chosen.
 Adjustment AdjustPose(std::span<const EdgeMatch> matches,
                       const AdjustmentFrame& frame,
                       const AdjustmentLimits& limits,
