@@ -212,6 +212,9 @@ void PoseFitOptions::Validate() const {
   require("focal_range_percent", focal_range_percent,
           focal_range_percent >= 0.0 && focal_range_percent <= 50.0, "[0, 50]");
   require("max_overhang_m", max_overhang_m, max_overhang_m >= 0.0, ">= 0");
+  require("max_move_m", max_move_m, max_move_m >= 0.0, ">= 0");
+  require("max_turn_deg", max_turn_deg, max_turn_deg >= 0.0, ">= 0");
+  require("max_loss", max_loss, max_loss >= 0.0, ">= 0");
 }
 
 PoseFit FitPose(const PictureLines& lines,

@@ -21,6 +21,11 @@ struct PoseFitOptions {
   double focal_range_percent = 0.0;
   // Largest overhang of the roofs, a further unknown [m]; 0: the picture's roofs end at the walls.
   double max_overhang_m = 0.0;
+  // A refined pose is given up for its fit (SettlePose) if that is no farther away [m, deg] and
+  // loses no more of the score's log ratio.
+  double max_move_m = 1.0;
+  double max_turn_deg = 1.0;
+  double max_loss = 1.0;
 
   void Visit(OptionVisitor& v) {
     v.Group("matches", [this](OptionVisitor& g) { matches.Visit(g); });
@@ -28,6 +33,9 @@ struct PoseFitOptions {
     v.Field("max_rounds", max_rounds);
     v.Field("focal_range_percent", focal_range_percent);
     v.Field("max_overhang_m", max_overhang_m);
+    v.Field("max_move_m", max_move_m);
+    v.Field("max_turn_deg", max_turn_deg);
+    v.Field("max_loss", max_loss);
   }
   // Throws InputError naming the field, e.g. "search.fit.max_rounds".
   void Validate() const;

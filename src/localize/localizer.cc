@@ -16,6 +16,7 @@
 #include "localize/posterior.h"
 #include "localize/refine_pose.h"
 #include "localize/sampled_search.h"
+#include "localize/settle_pose.h"
 
 namespace ridgeline {
 namespace {
@@ -203,6 +204,16 @@ Localization Localizer::Localize(const LocalizationInput& input,
     const double first_m = volume ? 0.5 * SpacingOf(ranges, options.search.map) : 0.5;
     refine(modes.size(), {first_m, 0.5, 0.3});
     refine((modes.size() + 2) / 3, {0.25, 0.25, 0.06});
+    if (options.search.refinement == "fit") {
+      modes.front() = SettlePose(*score,
+                                 {evidence.segments(), evidence.field(), evidence.camera()},
+                                 scene,
+                                 space,
+                                 surface_step_rad,
+                                 options.score.evidence.lines,
+                                 options.search.fit,
+                                 modes.front());
+    }
     lap("refinement");
   }
 

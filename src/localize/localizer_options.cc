@@ -16,7 +16,8 @@ void RequirePositive(const char* field, double value) {
 
 const std::vector<std::string>& ScoreNames() {
   static const std::vector<std::string> names = {
-      "evidence", "line_energy", "line_energy_zbuffer", "skyline_l1"};
+      "evidence",   "line_energy",      "line_energy_zbuffer", "skyline_l1",
+      "gradient",   "oriented_chamfer", "regions",             "unexplained"};
   return names;
 }
 
@@ -25,6 +26,10 @@ void ScoreOptions::Visit(OptionVisitor& v) {
   v.Field("weights", weights);
   v.Group("evidence", [this](OptionVisitor& g) { evidence.Visit(g); });
   v.Group("line_energy", [this](OptionVisitor& g) { line_energy.Visit(g); });
+  v.Group("oriented_chamfer", [this](OptionVisitor& g) { oriented_chamfer.Visit(g); });
+  v.Group("gradient", [this](OptionVisitor& g) { gradient.Visit(g); });
+  v.Group("regions", [this](OptionVisitor& g) { regions.Visit(g); });
+  v.Group("unexplained", [this](OptionVisitor& g) { unexplained.Visit(g); });
   v.Group("zbuffer_hough", [this](OptionVisitor& g) { zbuffer_hough.Visit(g); });
   v.Group("skyline", [this](OptionVisitor& g) { skyline.Visit(g); });
   v.Group("skyline_l1", [this](OptionVisitor& g) { skyline_l1.Visit(g); });
@@ -46,6 +51,10 @@ void ScoreOptions::Validate() const {
   }
   evidence.Validate();
   line_energy.Validate();
+  oriented_chamfer.Validate();
+  gradient.Validate();
+  regions.Validate();
+  unexplained.Validate();
   zbuffer_hough.Validate();
   skyline.Validate();
   skyline_l1.Validate();
@@ -78,6 +87,8 @@ void SearchOptions::Visit(OptionVisitor& v) {
   v.Field("evaluations", evaluations);
   v.Group("sampler", [this](OptionVisitor& g) { sampler.Visit(g); });
   v.Field("refine", refine);
+  v.Field("refinement", refinement);
+  v.Group("fit", [this](OptionVisitor& g) { fit.Visit(g); });
 }
 
 void SearchOptions::Validate() const {
@@ -85,6 +96,10 @@ void SearchOptions::Validate() const {
     throw InputError("", "search.method", "\"" + method + "\"", "map or sampler");
   }
   RequirePositive("search.evaluations", evaluations);
+  if (refinement != "compass" && refinement != "fit") {
+    throw InputError("", "search.refinement", "\"" + refinement + "\"", "compass or fit");
+  }
+  fit.Validate();
   space.Validate();
   map.Validate();
   sampler.Validate();

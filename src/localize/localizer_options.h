@@ -6,13 +6,18 @@
 
 #include "base/options.h"
 #include "lines/line_detector.h"
+#include "localize/fit_pose.h"
 #include "localize/pose_space.h"
 #include "optim/sampler_options.h"
 #include "projection/scene.h"
 #include "projection/zbuffer_hough.h"
+#include "score/gradient_score.h"
 #include "score/line_energy.h"
+#include "score/oriented_chamfer_score.h"
 #include "score/picture_evidence.h"
+#include "score/region_score.h"
 #include "score/skyline_l1.h"
+#include "score/unexplained_score.h"
 #include "skyline/skyline_extractor.h"
 
 namespace ridgeline {
@@ -22,13 +27,18 @@ const std::vector<std::string>& ScoreNames();
 
 struct ScoreOptions {
   // "evidence": ours. "line_energy": Loeper et al. on visible edges; "line_energy_zbuffer": the same
-  // on edges from a z-buffer, as in the paper. "skyline_l1": Ayadi et al.
+  // on edges from a z-buffer, as in the paper. "skyline_l1": Ayadi et al. Contenders of ours, each a
+  // single cue: "oriented_chamfer", "gradient", "regions", "unexplained".
   std::string name = "evidence";
   // Weights of the cues, in the order of kCueNames: the maximum likelihood of the dev queries
   // (docs/scores.md has the command).
   std::vector<double> weights = {0.14, 0.04, 0.02, 0.2, 0.3, 6.0, 0.85};
   EvidenceOptions evidence;
   LineEnergyOptions line_energy;
+  OrientedChamferOptions oriented_chamfer;
+  GradientScoreOptions gradient;
+  RegionScoreOptions regions;
+  UnexplainedScoreOptions unexplained;
   ZbufferHoughOptions zbuffer_hough;
   SkylineOptions skyline;
   SkylineL1Options skyline_l1;
@@ -64,6 +74,9 @@ struct SearchOptions {
   SamplerOptions sampler;
   // Whether the modes are refined on the exact score.
   bool refine = true;
+  // "compass": on the score alone. "fit": the best mode is then fitted by least squares.
+  std::string refinement = "compass";
+  PoseFitOptions fit;
 
   void Visit(OptionVisitor& v);
   void Validate() const;

@@ -2,8 +2,12 @@
 #include "localize/make_score.h"
 
 #include "score/evidence_score.h"
+#include "score/gradient_score.h"
 #include "score/line_energy_score.h"
+#include "score/oriented_chamfer_score.h"
+#include "score/region_score.h"
 #include "score/skyline_l1_score.h"
+#include "score/unexplained_score.h"
 #include "score/zbuffer_line_energy_score.h"
 #include "skyline/skyline_extractor.h"
 
@@ -27,6 +31,20 @@ std::unique_ptr<Score> MakeScore(const ScoreOptions& options,
   if (options.name == "skyline_l1") {
     const Skyline skyline = ExtractSkyline(bgr, options.skyline);
     return std::make_unique<SkylineL1Score>(SkylineL1(skyline, camera, options.skyline_l1));
+  }
+  if (options.name == "oriented_chamfer") {
+    return std::make_unique<OrientedChamferScore>(
+        evidence.field(), evidence.camera(), options.oriented_chamfer);
+  }
+  if (options.name == "gradient") {
+    return std::make_unique<GradientScore>(bgr, evidence.camera(), options.gradient);
+  }
+  if (options.name == "regions") {
+    return std::make_unique<RegionScore>(bgr, evidence.camera(), scene.model(), options.regions);
+  }
+  if (options.name == "unexplained") {
+    return std::make_unique<UnexplainedScore>(
+        evidence.segments(), evidence.field(), evidence.camera(), options.unexplained);
   }
   return std::make_unique<EvidenceScore>(evidence, scene.model(), options.weights,
                                          tolerance_factor);

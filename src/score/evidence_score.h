@@ -9,7 +9,8 @@ namespace ridgeline {
 
 // Weighted sum of the cues of PictureEvidence: the log-linear model P(pose) ~ exp(sum of w_k cue_k)
 // over the poses of a search, whose weights are those of the highest likelihood of the true poses of
-// the dev queries.
+// the dev queries. The edges' cues are the score by edge types: each kind is weighted by how often it
+// is seen in pictures, as a likelihood against lines at random; there is no other of that name.
 class EvidenceScore final : public Score {
  public:
   // `evidence` and `model` must outlive the score. One weight per cue, >= 0. `tolerance_factor` as

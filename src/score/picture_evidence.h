@@ -54,6 +54,7 @@ class PictureEvidence {
     std::vector<ProjectedSegment> segments;
     std::vector<LineSegment> lines;
     std::vector<float> skyline_rows;
+    std::vector<std::uint8_t> labels;
   };
 
   // @param bgr  Undistorted picture, 8 bit, three channels.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "score/score.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace ridgeline {
@@ -15,6 +16,10 @@ double Score::EnergyOf(double log_ratio) {
   return std::isnan(log_ratio) ? 1.0 : 1.0 / (1.0 + std::exp(log_ratio / kScale));
 }
 
-double Score::LogRatioOf(double energy) { return kScale * std::log((1.0 - energy) / energy); }
+double Score::LogRatioOf(double energy) {
+  constexpr double kLeast = 1e-12;  // of two perfect poses none is infinitely better
+  const double e = std::max(energy, kLeast);
+  return kScale * std::log((1.0 - e) / e);
+}
 
 }  // namespace ridgeline

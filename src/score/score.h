@@ -18,6 +18,10 @@ class Score {
   // What LogRatio() reads of a view.
   virtual ViewParts parts() const = 0;
 
+  // Why this picture gives every pose the energy 1, in words ("the picture has no lines"); empty if it
+  // does not.
+  virtual const char* unusable() const { return ""; }
+
   // Log likelihood ratio of the pose against chance, or what comes nearest to it; higher is better.
   // Without anything of the model in view it is -infinity.
   virtual double LogRatio(const PositionView& view,
