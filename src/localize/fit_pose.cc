@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "lines/line_families.h"
 #include "score/position_view.h"
 
 namespace ridgeline {
@@ -56,6 +57,7 @@ class Fitter {
          const LineLikelihoodOptions& likelihood,
          const PoseFitOptions& options)
       : camera_(lines.camera),
+        segments_(lines.segments),
         scene_(scene),
         space_(space),
         options_(options),
@@ -84,7 +86,7 @@ class Fitter {
         fit.reason = "no line of the picture runs along a visible edge of the model";
         break;
       }
-      adjustment = AdjustPose(matches, *frame, limits_, x);
+      adjustment = AdjustPose(matches, VerticalLines(x, *frame, tolerance), *frame, limits_, x);
       const AdjustmentVector next = AdmissibleBetween(x, adjustment.unknowns);
       const AdjustmentVector step = next - x;
       x = next;
@@ -151,6 +153,31 @@ class Fitter {
     return matcher_.Match(*view_, frame.CameraAt(x), pose, tolerance, x[kOverhang]);
   }
 
+  // Lines that may be vertical, where the camera's tilt is free.
+  std::vector<DirectionMatch> VerticalLines(const AdjustmentVector& x,
+                                            const AdjustmentFrame& frame,
+                                            double tolerance) const {
+    std::vector<DirectionMatch> verticals;
+    if (!limits_.IsFree(kPitch) && !limits_.IsFree(kRoll)) return verticals;
+    constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+    constexpr double kSigmaDeg = 1.0;  // as in FindTilts
+    constexpr double kVerticalShare = 0.3;
+    constexpr double kMaxSigmas = 3.0;
+    const double sigma_rad = tolerance * kSigmaDeg * kRadPerDeg;
+    // Half-normal against directions at random in [0, pi / 2].
+    const double odds = kVerticalShare / (1.0 - kVerticalShare) *
+                        std::sqrt(2.0 / std::numbers::pi) / sigma_rad * (std::numbers::pi / 2.0);
+    const Eigen::Vector3d up = frame.PoseAt(x).cam_from_world * Eigen::Vector3d::UnitZ();
+    const PinholeCamera camera = frame.CameraAt(x);
+    const double full_px = options_.matches.full_overlap_width * camera.width;
+    for (const LineSegment& line : segments_) {
+      if (std::abs(AngleToDirection(line, camera, up)) > kMaxSigmas * sigma_rad) continue;
+      verticals.push_back({line, Eigen::Vector3d::UnitZ(), sigma_rad, odds,
+                           std::min(1.0, line.Length() / full_px)});
+    }
+    return verticals;
+  }
+
   // The farthest place on the way that is admissible, by halving; `from` is.
   AdjustmentVector AdmissibleBetween(const AdjustmentVector& from,
                                      const AdjustmentVector& to) const {
@@ -190,6 +217,7 @@ class Fitter {
   }
 
   PinholeCamera camera_;
+  std::span<const LineSegment> segments_;
   const Scene& scene_;
   const PoseSpace& space_;
   const PoseFitOptions& options_;

@@ -73,7 +73,8 @@ struct PictureLines {
 
 // Refines a pose by least squares on the distances between the projected visible edges and the
 // picture's lines: edges and lines are matched, the pose is adjusted, and so again (iterative closest
-// lines). What the user knows holds what the picture does not: each free parameter has a normal prior
+// lines). Where the tilt is free, all lines that may be vertical hold it, edge or not: the model's errors
+// do not touch them. What the user knows holds what the picture does not: each free parameter has a normal prior
 // with the standard deviation of its range (half-range / sqrt 3), and stays in its range.
 // The matches are those of the line likelihood, one standard deviation and one share of seen edges
 // for both (LineLikelihoodOptions).

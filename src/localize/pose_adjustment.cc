@@ -18,6 +18,25 @@ namespace {
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kNearPlane = 0.1;  // [m]
 
+// camera/pose.cc: cam_from_world = Roll * Pitch * Level.
+Eigen::Matrix3d LevelRotation(double h) {
+  Eigen::Matrix3d level;
+  level << std::cos(h), -std::sin(h), 0.0, 0.0, 0.0, -1.0, std::sin(h), std::cos(h), 0.0;
+  return level;
+}
+
+Eigen::Matrix3d PitchRotation(double p) {
+  Eigen::Matrix3d pitch;
+  pitch << 1.0, 0.0, 0.0, 0.0, std::cos(p), std::sin(p), 0.0, -std::sin(p), std::cos(p);
+  return pitch;
+}
+
+Eigen::Matrix3d RollRotation(double r) {
+  Eigen::Matrix3d roll;
+  roll << std::cos(r), std::sin(r), 0.0, -std::sin(r), std::cos(r), 0.0, 0.0, 0.0, 1.0;
+  return roll;
+}
+
 class MatchCost final : public ceres::SizedCostFunction<2, 1, 1, 1, 1, 1, 1, 1, 1> {
  public:
   MatchCost(const EdgeMatch& match, const AdjustmentFrame& frame) : match_(match), frame_(frame) {}
@@ -42,6 +61,30 @@ class MatchCost final : public ceres::SizedCostFunction<2, 1, 1, 1, 1, 1, 1, 1, 
 
  private:
   const EdgeMatch& match_;
+  const AdjustmentFrame& frame_;
+};
+
+class DirectionCost final : public ceres::SizedCostFunction<1, 1, 1, 1, 1, 1, 1, 1, 1> {
+ public:
+  DirectionCost(const DirectionMatch& match, const AdjustmentFrame& frame)
+      : match_(match), frame_(frame) {}
+
+  bool Evaluate(const double* const* parameters,
+                double* residuals,
+                double** jacobians) const override {
+    AdjustmentVector unknowns;
+    for (int k = 0; k < kAdjustmentUnknowns; ++k) unknowns[k] = *parameters[k];
+    Eigen::Matrix<double, 1, kAdjustmentUnknowns> jacobian;
+    residuals[0] = DirectionResidual(match_, frame_, unknowns, jacobians ? &jacobian : nullptr);
+    if (jacobians == nullptr) return true;
+    for (int k = 0; k < kAdjustmentUnknowns; ++k) {
+      if (jacobians[k] != nullptr) jacobians[k][0] = jacobian[k];
+    }
+    return true;
+  }
+
+ private:
+  const DirectionMatch& match_;
   const AdjustmentFrame& frame_;
 };
 
@@ -83,10 +126,11 @@ class MixtureLoss final : public ceres::LossFunction {
 class Adjuster {
  public:
   Adjuster(std::span<const EdgeMatch> matches,
+           std::span<const DirectionMatch> directions,
            const AdjustmentFrame& frame,
            const AdjustmentLimits& limits,
            const AdjustmentVector& start)
-      : matches_(matches), frame_(frame), limits_(limits) {
+      : matches_(matches), directions_(directions), frame_(frame), limits_(limits) {
     result_.unknowns = start.cwiseMax(limits.lower).cwiseMin(limits.upper);
   }
 
@@ -94,7 +138,12 @@ class Adjuster {
     ceres::Problem problem(Unowned());
     std::deque<MixtureLoss> losses;
     for (const EdgeMatch& match : matches_) {
-      Add(problem, match, &losses.emplace_back(match.odds, match.weight));
+      Add(problem, &costs_.emplace_back(match, frame_),
+          &losses.emplace_back(match.odds, match.weight));
+    }
+    for (const DirectionMatch& match : directions_) {
+      Add(problem, &direction_costs_.emplace_back(match, frame_),
+          &losses.emplace_back(match.odds, match.weight));
     }
     AddPriors(problem);
     if (problem.NumResidualBlocks() == 0 || free_.empty()) return result_;
@@ -120,18 +169,9 @@ class Adjuster {
     return options;
   }
 
-  void Add(ceres::Problem& problem, const EdgeMatch& match, ceres::LossFunction* loss) {
+  void Add(ceres::Problem& problem, ceres::CostFunction* cost, ceres::LossFunction* loss) {
     double* x = result_.unknowns.data();
-    problem.AddResidualBlock(&costs_.emplace_back(match, frame_),
-                             loss,
-                             x,
-                             x + 1,
-                             x + 2,
-                             x + 3,
-                             x + 4,
-                             x + 5,
-                             x + 6,
-                             x + 7);
+    problem.AddResidualBlock(cost, loss, x, x + 1, x + 2, x + 3, x + 4, x + 5, x + 6, x + 7);
   }
 
   void AddPriors(ceres::Problem& problem) {
@@ -185,11 +225,19 @@ class Adjuster {
     std::deque<ceres::ScaledLoss> losses;
     for (std::size_t i = 0; i < matches_.size(); ++i) {
       if (weights[i] <= 0.0) continue;
-      Add(problem, matches_[i],
+      Add(problem, &costs_[i],
           &losses.emplace_back(nullptr,
                                weights[i] * matches_[i].information / matches_[i].weight /
                                    (scale * scale),
                                ceres::TAKE_OWNERSHIP));
+    }
+    for (std::size_t i = 0; i < directions_.size(); ++i) {
+      const double r = DirectionResidual(directions_[i], frame_, result_.unknowns, nullptr);
+      double rho[3];
+      MixtureLoss(directions_[i].odds, directions_[i].weight).Evaluate(r * r, rho);
+      if (rho[1] <= 0.0) continue;
+      Add(problem, &direction_costs_[i],
+          &losses.emplace_back(nullptr, rho[1] / (scale * scale), ceres::TAKE_OWNERSHIP));
     }
     AddPriors(problem);
     ceres::Covariance::Options options;
@@ -210,11 +258,13 @@ class Adjuster {
   }
 
   std::span<const EdgeMatch> matches_;
+  std::span<const DirectionMatch> directions_;
   const AdjustmentFrame& frame_;
   const AdjustmentLimits& limits_;
   Adjustment result_;
   std::vector<double*> free_;
   std::deque<MatchCost> costs_;
+  std::deque<DirectionCost> direction_costs_;
   std::deque<PriorCost> priors_;
 };
 
@@ -243,13 +293,9 @@ bool MatchResiduals(const EdgeMatch& match,
   const double h = (frame.angles.heading_deg + x[kHeading]) * kRadPerDeg;
   const double p = (frame.angles.pitch_deg + x[kPitch]) * kRadPerDeg;
   const double r = (frame.angles.roll_deg + x[kRoll]) * kRadPerDeg;
-  // camera/pose.cc: cam_from_world = Roll * Pitch * Level.
-  Eigen::Matrix3d level;
-  level << std::cos(h), -std::sin(h), 0.0, 0.0, 0.0, -1.0, std::sin(h), std::cos(h), 0.0;
-  Eigen::Matrix3d pitch;
-  pitch << 1.0, 0.0, 0.0, 0.0, std::cos(p), std::sin(p), 0.0, -std::sin(p), std::cos(p);
-  Eigen::Matrix3d roll;
-  roll << std::cos(r), std::sin(r), 0.0, -std::sin(r), std::cos(r), 0.0, 0.0, 0.0, 1.0;
+  const Eigen::Matrix3d level = LevelRotation(h);
+  const Eigen::Matrix3d pitch = PitchRotation(p);
+  const Eigen::Matrix3d roll = RollRotation(r);
   const Eigen::Matrix3d tilt = roll * pitch;
   const Eigen::Matrix3d rotation = tilt * level;
   const Eigen::Vector3d center =
@@ -288,11 +334,54 @@ bool MatchResiduals(const EdgeMatch& match,
   return true;
 }
 
+double DirectionResidual(const DirectionMatch& match,
+                         const AdjustmentFrame& frame,
+                         const AdjustmentVector& x,
+                         Eigen::Matrix<double, 1, kAdjustmentUnknowns>* jacobian) {
+  const double h = (frame.angles.heading_deg + x[kHeading]) * kRadPerDeg;
+  const double p = (frame.angles.pitch_deg + x[kPitch]) * kRadPerDeg;
+  const double r = (frame.angles.roll_deg + x[kRoll]) * kRadPerDeg;
+  const Eigen::Matrix3d level = LevelRotation(h);
+  const Eigen::Matrix3d pitch = PitchRotation(p);
+  const Eigen::Matrix3d roll = RollRotation(r);
+  const PinholeCamera camera = frame.CameraAt(x);
+  const Eigen::Vector2d middle = (0.5f * (match.line.a + match.line.b)).cast<double>();
+  const Eigen::Vector2d line = (match.line.b - match.line.a).cast<double>().normalized();
+  const Eigen::Vector3d u = level * match.direction;
+  const Eigen::Vector3d w = pitch * u;
+  const Eigen::Vector3d c = roll * w;
+  // Along the image of the direction, scaled by the focal length.
+  const Eigen::Vector2d center(camera.cx, camera.cy);
+  const Eigen::Vector2d image =
+      Eigen::Vector2d(camera.fx * c.x(), camera.fy * c.y()) - (middle - center) * c.z();
+  const double norm = image.norm();
+  constexpr double kNoDirection = 1e-9;  // the middle is the vanishing point
+  if (jacobian != nullptr) jacobian->setZero();
+  if (norm < kNoDirection) return 0.0;
+  const double sine = (image.x() * line.y() - image.y() * line.x()) / norm;
+  if (jacobian == nullptr) return sine / match.sigma_rad;
+  const Eigen::RowVector2d by_image =
+      (Eigen::RowVector2d(line.y(), -line.x()) - sine * image.transpose() / norm) /
+      (norm * match.sigma_rad);
+  const auto by_turn = [&](const Eigen::Vector3d& d) {
+    const Eigen::Vector2d moved(camera.fx * d.x() - (middle - center).x() * d.z(),
+                                camera.fy * d.y() - (middle - center).y() * d.z());
+    return by_image.dot(moved);
+  };
+  (*jacobian)[kHeading] = kRadPerDeg * by_turn(roll * pitch * Eigen::Vector3d(-u.z(), 0.0, u.x()));
+  (*jacobian)[kPitch] = kRadPerDeg * by_turn(roll * Eigen::Vector3d(0.0, w.z(), -w.y()));
+  (*jacobian)[kRoll] = kRadPerDeg * by_turn(Eigen::Vector3d(c.y(), -c.x(), 0.0));
+  const Eigen::Vector2d by_focal(frame.camera.fx * c.x(), frame.camera.fy * c.y());
+  (*jacobian)[kFocalPercent] = 0.01 * by_image.dot(by_focal);
+  return sine / match.sigma_rad;
+}
+
 Adjustment AdjustPose(std::span<const EdgeMatch> matches,
+                      std::span<const DirectionMatch> directions,
                       const AdjustmentFrame& frame,
                       const AdjustmentLimits& limits,
                       const AdjustmentVector& start) {
-  return Adjuster(matches, frame, limits, start).Run();
+  return Adjuster(matches, directions, frame, limits, start).Run();
 }
 
 }  // namespace ridgeline

@@ -26,6 +26,16 @@ enum AdjustmentUnknown {
 using AdjustmentVector = Eigen::Matrix<double, kAdjustmentUnknowns, 1>;
 using AdjustmentMatrix = Eigen::Matrix<double, kAdjustmentUnknowns, kAdjustmentUnknowns>;
 
+// A line of the picture that runs in a known direction of the world, wherever it stands: corners,
+// windows and door posts are vertical.
+struct DirectionMatch {
+  LineSegment line;
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  // local, unit
+  double sigma_rad = 0.02;
+  double odds = 1.0;    // as in EdgeMatch, of a line in the very direction
+  double weight = 1.0;  // share of an independent observation
+};
+
 // The camera that the unknowns are offsets of.
 struct AdjustmentFrame {
   PinholeCamera camera;
@@ -58,6 +68,13 @@ bool MatchResiduals(const EdgeMatch& match,
                     Eigen::Vector2d& residuals,
                     Eigen::Matrix<double, 2, kAdjustmentUnknowns>* jacobian);
 
+// Angle at the line's middle between it and the image of its direction, in units of the standard
+// deviation (its sine, to be exact). `jacobian` may be null.
+double DirectionResidual(const DirectionMatch& match,
+                         const AdjustmentFrame& frame,
+                         const AdjustmentVector& unknowns,
+                         Eigen::Matrix<double, 1, kAdjustmentUnknowns>* jacobian);
+
 struct Adjustment {
   AdjustmentVector unknowns = AdjustmentVector::Zero();
   // Of the free unknowns; zero for fixed ones.
@@ -69,12 +86,14 @@ struct Adjustment {
 };
 
 // Least squares adjustment of the unknowns (Ceres, Levenberg-Marquardt): the negative log likelihood
-// of the matches, each the edge's own line (normally distributed) or one at random, and the priors.
+// of the matches, each the edge's own line (normally distributed) or one at random, of the lines of
+// known direction, likewise, and of the priors.
 // The loss of a match is -2 log((1 + odds exp(-s / 2)) / (1 + odds)) of its squared residuals s, so
 // that what is far away has no influence. The covariance is the inverse of the normal matrix, with
 // the lines' part scaled by sigma0^2 if that is above 1: below it says little, since the lines nearest
 // to the edges were chosen.
 Adjustment AdjustPose(std::span<const EdgeMatch> matches,
+                      std::span<const DirectionMatch> directions,
                       const AdjustmentFrame& frame,
                       const AdjustmentLimits& limits,
                       const AdjustmentVector& start);

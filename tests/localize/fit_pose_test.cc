@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "lines/line_families.h"
 #include "support/synthetic_city.h"
 
 namespace ridgeline {
@@ -13,7 +14,7 @@ namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-const PinholeCamera kCamera{960, 720, 800.0, 800.0, 480.0, 360.0};
+const PinholeCamera kCamera{640, 480, 530.0, 530.0, 320.0, 240.0};
 
 // Two rows of gabled houses along a street to the north.
 CityModel Street() {
@@ -58,7 +59,7 @@ class FitPoseOnAStreet : public ::testing::Test {
     ProjectPieces(visible, camera, truth_, projected);
     std::vector<LineSegment> lines;
     for (const ProjectedSegment& segment : projected) {
-      if ((segment.b - segment.a).norm() > 25.0f) lines.push_back({segment.a, segment.b, 1.0f});
+      if ((segment.b - segment.a).norm() > 16.0f) lines.push_back({segment.a, segment.b, 1.0f});
     }
     return lines;
   }
@@ -114,14 +115,14 @@ TEST_F(FitPoseOnAStreet, OutliersHaveNoInfluence) {
   Random random(1, HashText("OutliersHaveNoInfluence"));
   const std::size_t outliers = 2 * lines.size();
   for (std::size_t i = 0; i < outliers; ++i) {
-    const Eigen::Vector2f a(random.Uniform(0, 960), random.Uniform(0, 720));
+    const Eigen::Vector2f a(random.Uniform(0, 640), random.Uniform(0, 480));
     const double turn = random.Uniform(0, 2 * M_PI);
-    const Eigen::Vector2f d(60 * std::cos(turn), 60 * std::sin(turn));
+    const Eigen::Vector2f d(40 * std::cos(turn), 40 * std::sin(turn));
     lines.push_back({a, a + d, 1.0f});
   }
   const PoseFit fit = FitTo(lines, {0.3, -0.3, 0.2, 0.5, -0.5, 0.5});
   ASSERT_EQ(fit.status, PoseFitStatus::kOk);
-  // Random lines within a standard deviation (2.5 px) of an edge do count.
+  // Random lines within a standard deviation (1.6 px) of an edge do count.
   EXPECT_LT(VectorOf(fit.offset).head<3>().norm(), 0.1);
   EXPECT_LT(VectorOf(fit.offset).tail<3>().norm(), 0.1);
 }
@@ -206,7 +207,7 @@ TEST_F(FitPoseOnAStreet, ThePriorHoldsWhatThePictureLeavesOpen) {
   std::vector<LineSegment> one;
   for (const LineSegment& line : ExactLines()) {
     const Eigen::Vector2f d = (line.b - line.a).normalized();
-    if (std::abs(d.x()) < 0.1f && line.Length() > 100.0f && one.empty()) one.push_back(line);
+    if (std::abs(d.x()) < 0.1f && line.Length() > 60.0f && one.empty()) one.push_back(line);
   }
   ASSERT_EQ(one.size(), 1u);
   const PoseFit fit = FitTo(one, {0.1, 0.1, 0.1, 0.0, 0.0, 0.0});
@@ -276,6 +277,33 @@ TEST(MatchResiduals, JacobianIsThatOfDifferences) {
   const Eigen::Vector2d image = frame.CameraAt(x).ImageFromCamera(
       frame.PoseAt(x).CameraFromWorld(match.a + x[kOverhang] * match.overhang));
   EXPECT_NEAR(r[0], (match.normal.dot(image) - 20.0) / 2.0, 1e-9);
+}
+
+TEST(DirectionResidual, JacobianIsThatOfDifferences) {
+  AdjustmentFrame frame;
+  frame.camera = kCamera;
+  frame.angles = {35.0, 8.0, -4.0};
+  DirectionMatch match;
+  match.line = {{200.0f, 100.0f}, {230.0f, 300.0f}, 1.0f};
+  match.direction = Eigen::Vector3d(0.3, -0.2, 0.9).normalized();
+  AdjustmentVector x;
+  x << 0.3, -0.2, 0.1, 2.0, -1.0, 0.5, 1.5, 0.4;
+  Eigen::Matrix<double, 1, kAdjustmentUnknowns> jacobian;
+  const double residual = DirectionResidual(match, frame, x, &jacobian);
+  const double angle = AngleToDirection(match.line, frame.CameraAt(x),
+                                        frame.PoseAt(x).cam_from_world * match.direction);
+  EXPECT_NEAR(std::abs(residual), std::abs(std::sin(angle)) / match.sigma_rad, 1e-9);
+  for (int k = 0; k < kAdjustmentUnknowns; ++k) {
+    constexpr double kStep = 1e-5;
+    AdjustmentVector more = x;
+    AdjustmentVector less = x;
+    more[k] += kStep;
+    less[k] -= kStep;
+    const double difference = (DirectionResidual(match, frame, more, nullptr) -
+                               DirectionResidual(match, frame, less, nullptr)) /
+                              (2 * kStep);
+    EXPECT_NEAR(jacobian[k], difference, 1e-6 * (1.0 + std::abs(difference))) << k;
+  }
 }
 
 TEST(MatchResiduals, APointBehindTheCameraHasNone) {
