@@ -120,7 +120,8 @@ BENCHMARK(SkylineMunichTerrain)->Unit(benchmark::kMillisecond);
 // As the scores use it: 120 x 60 degrees at 0.02 rad.
 void SurfacePanoramaMunich(benchmark::State& state) {
   const World& world = MunichWorld();
-  const PanoramaRange range{world.LookingAhead(), -0.5, 0.5, 0.02};
+  const Sector ahead = world.LookingAhead();
+  const PanoramaRange range{{ahead.center, ahead.half_width, -0.5, 0.5}, 0.02};
   std::size_t i = 0;
   for (auto _ : state) {
     const SurfacePanorama panorama = SurfacesFrom(*world.scene, GridPosition(world, i++), range);

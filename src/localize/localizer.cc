@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <string>
@@ -39,11 +40,12 @@ constexpr std::size_t kMinLines = 4;
 
 void CheckInput(const LocalizationInput& input, const CityModel& model) {
   if (input.picture.cols != input.camera.width || input.picture.rows != input.camera.height) {
-    throw InputError("",
-                     "image",
-                     std::to_string(input.picture.cols) + " x " + std::to_string(input.picture.rows),
-                     "the camera's " + std::to_string(input.camera.width) + " x " +
-                         std::to_string(input.camera.height));
+    throw InputError(
+        "",
+        "image",
+        std::to_string(input.picture.cols) + " x " + std::to_string(input.picture.rows),
+        "the camera's " + std::to_string(input.camera.width) + " x " +
+            std::to_string(input.camera.height));
   }
   constexpr double kMarginM = 500.0;  // a camera may stand beside the modelled buildings
   Eigen::AlignedBox2d extent;
@@ -53,12 +55,34 @@ void CheckInput(const LocalizationInput& input, const CityModel& model) {
   const auto text = [](const Eigen::Vector2d& p) {
     return std::to_string(std::lround(p.x())) + ", " + std::to_string(std::lround(p.y()));
   };
-  throw InputError("",
-                   "prior.position",
-                   place.allFinite() ? text(input.prior.position_in_world) : "numbers that are not finite",
-                   "a place in the model, between " +
-                       text(extent.min() + model.origin_in_world.head<2>()) + " and " +
-                       text(extent.max() + model.origin_in_world.head<2>()));
+  throw InputError(
+      "",
+      "prior.position",
+      place.allFinite() ? text(input.prior.position_in_world) : "numbers that are not finite",
+      "a place in the model, between " + text(extent.min() + model.origin_in_world.head<2>()) +
+          " and " + text(extent.max() + model.origin_in_world.head<2>()));
+}
+
+// Refines the first `count` modes, until those that are left could not become the best by gaining
+// half as much again as the most any has gained.
+void RefineWhileHopeful(const std::vector<ScoredPose>& modes,
+                        std::size_t count,
+                        const std::function<void(std::size_t first, std::size_t count)>& refine) {
+  constexpr std::size_t kAtATime = 2;  // not the number of threads: results must not depend on it
+  constexpr double kGainFactor = 1.5;
+  constexpr double kMargin = 2.0;
+  double best = modes.front().log_ratio;
+  double gain = 0.0;
+  for (std::size_t done = 0; done < count; done += kAtATime) {
+    if (modes[done].log_ratio + kGainFactor * gain + kMargin < best) break;
+    const std::size_t end = std::min(count, done + kAtATime);
+    const std::vector<ScoredPose> before(modes.begin() + done, modes.begin() + end);
+    refine(done, end - done);
+    for (std::size_t i = done; i < end; ++i) {
+      gain = std::max(gain, modes[i].log_ratio - before[i - done].log_ratio);
+      best = std::max(best, modes[i].log_ratio);
+    }
+  }
 }
 
 }  // namespace
@@ -138,8 +162,7 @@ Localization Localizer::Localize(const LocalizationInput& input,
   const PinholeCamera camera = input.camera.Pinhole();
   const PictureEvidence evidence(
       bgr, camera, options.lines, options.score.evidence, threads, input.lines);
-  const std::unique_ptr<Score> score =
-      MakeScore(options.score, evidence, bgr, camera, scene, 1.0);
+  const std::unique_ptr<Score> score = MakeScore(options.score, evidence, bgr, camera, scene, 1.0);
   lap("picture");
   if (evidence.segments().size() < kMinLines) {
     result.status = LocalizationStatus::kTooFewLines;
@@ -168,14 +191,14 @@ Localization Localizer::Localize(const LocalizationInput& input,
     const double spacing_m = SpacingOf(ranges, map);
     const std::unique_ptr<Score> coarse_score =
         MakeScore(options.score, evidence, bgr, camera, scene, std::max(1.0, spacing_m));
-    volume = ComputeVolume(*coarse_score, scene, space, evidence.camera(), tilts, surface_step_rad, map,
-                           threads);
+    volume = ComputeVolume(
+        *coarse_score, scene, space, evidence.camera(), tilts, surface_step_rad, map, threads);
     result.evaluations = volume->evaluations;
     result.map = MapOf(*volume, space, impl_->model);
     modes = FindModes(*volume, space, map);
   } else {
-    SampledSearch search = SampleSearch(*score, scene, space, evidence.camera(), surface_step_rad,
-                                        options.search, seed, threads);
+    SampledSearch search = SampleSearch(
+        *score, scene, space, evidence.camera(), surface_step_rad, options.search, seed, threads);
     result.evaluations = search.trace.trials.size();
     modes = std::move(search.modes);
   }
@@ -188,22 +211,29 @@ Localization Localizer::Localize(const LocalizationInput& input,
 
   // The modes, refined on the exact score: all a little, the better half to the end.
   if (options.search.refine) {
-    const auto refine = [&](std::size_t count, const RefineSteps& steps) {
+    const auto refine = [&](std::size_t first, std::size_t count, const RefineSteps& steps) {
       std::vector<std::uint64_t> evaluations(count);
       ParallelFor(count, threads, [&](std::size_t i) {
-        const RefinedPose refined =
-            RefinePose(*score, scene, space, evidence.camera(), surface_step_rad, modes[i], steps);
-        modes[i] = refined.pose;
+        const RefinedPose refined = RefinePose(
+            *score, scene, space, evidence.camera(), surface_step_rad, modes[first + i], steps);
+        modes[first + i] = refined.pose;
         evaluations[i] = refined.evaluations;
       });
       for (const std::uint64_t n : evaluations) result.evaluations += n;
+    };
+    const auto best_first = [&] {
       std::stable_sort(modes.begin(), modes.end(), [](const ScoredPose& x, const ScoredPose& y) {
         return x.log_ratio > y.log_ratio;
       });
     };
     const double first_m = volume ? 0.5 * SpacingOf(ranges, options.search.map) : 0.5;
-    refine(modes.size(), {first_m, 0.5, 0.3});
-    refine((modes.size() + 2) / 3, {0.25, 0.25, 0.06});
+    refine(0, modes.size(), {first_m, 0.5, 0.3});
+    best_first();
+    const std::size_t better = (modes.size() + 2) / 3;
+    RefineWhileHopeful(modes, better, [&](std::size_t first, std::size_t count) {
+      refine(first, count, {0.25, 0.25, 0.06});
+    });
+    best_first();
     if (options.search.refinement == "fit") {
       modes.front() = SettlePose(*score,
                                  {evidence.segments(), evidence.field(), evidence.camera()},

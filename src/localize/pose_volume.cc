@@ -31,33 +31,6 @@ std::vector<double> HeadingOffsets(double half_range_deg, double step_deg) {
   return offsets;
 }
 
-// A coarse grid needs the large edges only [pieces in the sector].
-constexpr std::size_t kMaxPieces = 600;
-
-void KeepLargest(PositionView& view) {
-  std::vector<VisiblePiece>& pieces = view.visible.pieces;
-  if (pieces.size() <= kMaxPieces) return;
-  const Eigen::Vector3f eye = view.visible.position.cast<float>();
-  std::vector<std::pair<float, std::uint32_t>> sizes;
-  for (std::uint32_t i = 0; i < pieces.size(); ++i) {
-    const Eigen::Vector3f a = (pieces[i].a - eye).normalized();
-    const Eigen::Vector3f b = (pieces[i].b - eye).normalized();
-    sizes.emplace_back(-(a - b).squaredNorm(), i);
-  }
-  std::nth_element(sizes.begin(), sizes.begin() + kMaxPieces, sizes.end());
-  sizes.resize(kMaxPieces);
-  std::sort(sizes.begin(), sizes.end(),
-            [](const auto& x, const auto& y) { return x.second < y.second; });
-  std::vector<VisiblePiece> kept;
-  std::vector<EdgeKind> kinds;
-  for (const auto& [size, i] : sizes) {
-    kept.push_back(pieces[i]);
-    kinds.push_back(view.kinds[i]);
-  }
-  pieces = std::move(kept);
-  view.kinds = std::move(kinds);
-}
-
 }  // namespace
 
 double SpacingOf(const PoseSpaceOptions& ranges, const MapOptions& options) {
@@ -109,13 +82,12 @@ PoseVolume ComputeVolume(const Score& score,
   // The panorama must hold every tilt.
   ViewAngles half_ranges{ranges.heading_deg, 0.0, 0.0};
   for (const Tilt& tilt : tilts) {
-    half_ranges.pitch_deg = std::max(half_ranges.pitch_deg,
-                                     std::abs(tilt.pitch_deg - space.center_angles().pitch_deg));
+    half_ranges.pitch_deg =
+        std::max(half_ranges.pitch_deg, std::abs(tilt.pitch_deg - space.center_angles().pitch_deg));
     half_ranges.roll_deg =
         std::max(half_ranges.roll_deg, std::abs(tilt.roll_deg - space.center_angles().roll_deg));
   }
-  const PanoramaRange range =
-      RangeOf(camera, space.center_angles(), half_ranges, surface_step_rad);
+  const PanoramaRange range = RangeOf(camera, space.center_angles(), half_ranges, surface_step_rad);
   std::vector<Eigen::Quaterniond> rotations;
   std::vector<double> log_priors;
   for (std::size_t i = 0; i < volume.orientations(); ++i) {
@@ -131,11 +103,10 @@ PoseVolume ComputeVolume(const Score& score,
     if (!position) return;
     admissible[p] = 1;
     PictureEvidence::Workspace workspace;
-    PositionView view = ViewFrom(scene, *position, range, score.parts());
-    KeepLargest(view);
+    const PositionView view = ViewFrom(scene, *position, range, score.parts());
     for (std::size_t i = 0; i < rotations.size(); ++i) {
-      volume.log_ratios[first + i] =
-          static_cast<float>(score.LogRatio(view, {rotations[i], *position}, workspace) + log_priors[i]);
+      volume.log_ratios[first + i] = static_cast<float>(
+          score.LogRatio(view, {rotations[i], *position}, workspace) + log_priors[i]);
     }
   });
   volume.admissible_positions =
@@ -161,8 +132,9 @@ std::vector<ScoredPose> FindModes(const PoseVolume& volume,
     const PoseSpace::Offset o = volume.OffsetOf(index, space.center_angles());
     const bool is_near = std::any_of(modes.begin(), modes.end(), [&](const ScoredPose& mode) {
       const PoseSpace::Offset& m = mode.offset;
-      const double distance = Eigen::Vector3d(
-          o.east_m - m.east_m, o.north_m - m.north_m, o.height_m - m.height_m).norm();
+      const double distance =
+          Eigen::Vector3d(o.east_m - m.east_m, o.north_m - m.north_m, o.height_m - m.height_m)
+              .norm();
       return distance < separation_m &&
              std::abs(HeadingDifferenceDeg(o.heading_deg, m.heading_deg)) <
                  options.mode_separation_deg;
@@ -193,8 +165,7 @@ EnergyMap MapOf(const PoseVolume& volume, const PoseSpace& space, const CityMode
   for (std::size_t cell = 0; cell < cells; ++cell) {
     const bool known = log_ratios[cell] != kNone;
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    map.energies.push_back(
-        known ? static_cast<float>(Score::EnergyOf(log_ratios[cell])) : nan);
+    map.energies.push_back(known ? static_cast<float>(Score::EnergyOf(log_ratios[cell])) : nan);
     map.headings_deg.push_back(
         known ? static_cast<float>(
                     space.AnglesAt(volume.OffsetOf(best[cell], space.center_angles())).heading_deg)

@@ -4,16 +4,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace ridgeline {
 namespace {
 
-constexpr std::array<double PoseSpace::Offset::*, 3> kAngles = {&PoseSpace::Offset::heading_deg,
-                                                               &PoseSpace::Offset::pitch_deg,
-                                                               &PoseSpace::Offset::roll_deg};
-constexpr std::array<double PoseSpace::Offset::*, 3> kPlace = {&PoseSpace::Offset::east_m,
-                                                              &PoseSpace::Offset::north_m,
-                                                              &PoseSpace::Offset::height_m};
+constexpr std::array<double PoseSpace::Offset::*, 3> kAngles = {
+    &PoseSpace::Offset::heading_deg, &PoseSpace::Offset::pitch_deg, &PoseSpace::Offset::roll_deg};
+constexpr std::array<double PoseSpace::Offset::*, 3> kPlace = {
+    &PoseSpace::Offset::east_m, &PoseSpace::Offset::north_m, &PoseSpace::Offset::height_m};
+
+// Of the angles around those for which a view was made.
+constexpr double kMarginDeg = 3.0;
+// A view serves for places this near, as a share of the distance to the nearest edge.
+constexpr double kReach = 0.01;
 
 class Climber {
  public:
@@ -28,8 +32,8 @@ class Climber {
         camera_(camera),
         surface_step_rad_(surface_step_rad),
         place_ranges_{space.ranges().east_m, space.ranges().north_m, space.ranges().height_m},
-        angle_ranges_{space.ranges().heading_deg, space.ranges().pitch_deg,
-                      space.ranges().roll_deg} {}
+        angle_ranges_{
+            space.ranges().heading_deg, space.ranges().pitch_deg, space.ranges().roll_deg} {}
 
   RefinedPose Climb(const ScoredPose& start, const RefineSteps& steps) {
     ScoredPose best = start;
@@ -65,20 +69,14 @@ class Climber {
     const PoseSpace::Offset& o = pose.offset;
     const auto position = space_.PositionAt(o.east_m, o.north_m, o.height_m);
     if (!position) return false;
-    constexpr double kMarginDeg = 3.0;  // of the angles around the first ones
-    const PositionView view =
-        ViewFrom(scene_,
-                 *position,
-                 RangeOf(camera_, space_.AnglesAt(o), {kMarginDeg, kMarginDeg, kMarginDeg},
-                         surface_step_rad_),
-                 score_.parts());
+    LookFrom(*position, o);
     const auto evaluate = [&](const PoseSpace::Offset& offset) {
       ++evaluations_;
-      return score_.LogRatio(view, {CamFromWorld(space_.AnglesAt(offset)), *position}, workspace_) +
+      return score_.LogRatio(
+                 view_, {CamFromWorld(space_.AnglesAt(offset)), *position}, workspace_) +
              space_.LogPrior(offset);
     };
     pose.log_ratio = evaluate(pose.offset);
-    const PoseSpace::Offset first = pose.offset;
     for (double s = step; s >= 0.25 * step; s *= 0.5) {
       for (bool moved = true; moved;) {
         moved = false;
@@ -88,7 +86,7 @@ class Climber {
             PoseSpace::Offset candidate = pose.offset;
             double& value = candidate.*kAngles[k];
             value = std::clamp(value + sign * s, -angle_ranges_[k], angle_ranges_[k]);
-            if (std::abs(value - first.*kAngles[k]) > kMarginDeg) continue;
+            if (std::abs(value - view_angles_.*kAngles[k]) > kMarginDeg) continue;
             const double log_ratio = evaluate(candidate);
             if (log_ratio <= pose.log_ratio) continue;
             pose = {candidate, log_ratio};
@@ -101,6 +99,32 @@ class Climber {
     return true;
   }
 
+  // Brings view_ up to date for a place and the angles around those of `offset`.
+  void LookFrom(const Eigen::Vector3d& position, const PoseSpace::Offset& offset) {
+    const bool is_same = (position - view_position_).norm() <= view_reach_m_ &&
+                         std::all_of(kAngles.begin(), kAngles.end(), [&](auto angle) {
+                           return std::abs(offset.*angle - view_angles_.*angle) <= 0.5 * kMarginDeg;
+                         });
+    if (is_same) return;
+    view_ = ViewFrom(scene_,
+                     position,
+                     RangeOf(camera_,
+                             space_.AnglesAt(offset),
+                             {kMarginDeg, kMarginDeg, kMarginDeg},
+                             surface_step_rad_),
+                     score_.parts());
+    view_position_ = position;
+    view_angles_ = offset;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const VisiblePiece& piece : view_.visible.pieces) {
+      const Eigen::Vector3d a = piece.a.cast<double>() - position;
+      const Eigen::Vector3d ab = (piece.b - piece.a).cast<double>();
+      const double t = std::clamp(-a.dot(ab) / ab.squaredNorm(), 0.0, 1.0);
+      nearest = std::min(nearest, (a + t * ab).norm());
+    }
+    view_reach_m_ = std::isfinite(nearest) ? kReach * nearest : 0.0;
+  }
+
   const Score& score_;
   const Scene& scene_;
   const PoseSpace& space_;
@@ -109,6 +133,11 @@ class Climber {
   std::array<double, 3> place_ranges_;
   std::array<double, 3> angle_ranges_;
   PictureEvidence::Workspace workspace_;
+  PositionView view_;
+  Eigen::Vector3d view_position_ =
+      Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+  double view_reach_m_ = 0.0;
+  PoseSpace::Offset view_angles_;
   std::uint64_t evaluations_ = 0;
 };
 

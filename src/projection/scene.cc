@@ -96,7 +96,10 @@ Scene::Scene(Scene&&) noexcept = default;
 
 VisibleSet Scene::VisibleFrom(const Eigen::Vector3d& position, const Sector& sector) const {
   const Impl& impl = *impl_;
-  const SectorTest sector_test(sector.center, sector.half_width);
+  const SectorTest sector_test(sector.center,
+                               sector.half_width,
+                               sector.lowest_elevation,
+                               sector.highest_elevation);
   const Eigen::Vector3f eye = position.cast<float>();
   const auto min_angle = static_cast<float>(impl.options.min_piece_mrad * kMilli);
 

@@ -45,10 +45,13 @@ struct VisibleSet {
   std::vector<float> skyline_elevation;
 };
 
-// Horizontal sector of view directions, clockwise from north [rad]. Half width pi: all around.
+// Sector of view directions: azimuths clockwise from north, half width pi: all around; elevations
+// [rad].
 struct Sector {
   double center = 0.0;
   double half_width = 3.14159265358979323846;
+  double lowest_elevation = -1.57079632679489661923;
+  double highest_elevation = 1.57079632679489661923;
 };
 
 struct ProjectionOptions {

@@ -42,8 +42,8 @@ Int4 SurfacePanorama::Find(const simd::Vec3x4& directions) const {
   const Float4 rise =
       FirstQuadrantAngle(simd::Sqrt(east * east + north * north), simd::Abs(height));
   const Int4 column = CellOf(azimuth, first, inverse_step);
-  const Int4 row = CellOf(
-      height < 0.0f ? -rise : rise, static_cast<float>(first_elevation), inverse_step);
+  const Int4 row =
+      CellOf(height < 0.0f ? -rise : rise, static_cast<float>(first_elevation), inverse_step);
   const Int4 inside = (column >= 0) & (column < columns) & (row >= 0) & (row < rows);
   return inside ? row * columns + column : Int4{-1, -1, -1, -1};
 }
@@ -61,12 +61,13 @@ SurfacePanorama SurfacesFrom(const Scene& scene,
   panorama.step = range.step;
   // In (-pi, pi], so that Find needs one turn at most.
   panorama.first_azimuth = std::remainder(range.sector.center - half_width, 2.0 * std::numbers::pi);
-  panorama.first_elevation = range.lowest_elevation;
+  panorama.first_elevation = range.sector.lowest_elevation;
   panorama.columns = static_cast<int>(std::ceil(2.0 * half_width / range.step)) + 1;
-  panorama.rows = std::max(
-      1,
-      static_cast<int>(std::ceil((range.highest_elevation - range.lowest_elevation) / range.step)) +
-          1);
+  panorama.rows =
+      std::max(1,
+               static_cast<int>(std::ceil(
+                   (range.sector.highest_elevation - range.sector.lowest_elevation) / range.step)) +
+                   1);
   std::vector<Eigen::Vector2f> horizontal;  // per column
   horizontal.reserve(static_cast<std::size_t>(panorama.columns));
   for (int column = 0; column < panorama.columns; ++column) {

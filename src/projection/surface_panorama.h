@@ -29,8 +29,6 @@ struct SurfacePanorama {
 
 struct PanoramaRange {
   Sector sector;
-  double lowest_elevation = 0.0;  // [rad]
-  double highest_elevation = 0.0;
   double step = 0.02;  // [rad]
 };
 

@@ -148,8 +148,9 @@ float FacadeDirections::LogRatio(const SurfacePanorama& surfaces,
       simd::SetLane(rise, lane, normal.cross(along));
       weight[lane] = lines.weight[lane];
     }
-    const Float4 squares = inverse_variance_ * simd::Min(SquareOfSine(lines, Rotated(to_camera, course)),
-                                                         SquareOfSine(lines, Rotated(to_camera, rise)));
+    const Float4 squares =
+        inverse_variance_ * simd::Min(SquareOfSine(lines, Rotated(to_camera, course)),
+                                      SquareOfSine(lines, Rotated(to_camera, rise)));
     Float4 ratios;
     for (int lane = 0; lane < 4; ++lane) {
       ratios[lane] = LogRatioAt(lines.table[static_cast<std::size_t>(lane)], squares[lane]);

@@ -20,7 +20,10 @@ inline std::uint8_t Plus(std::uint8_t value, std::uint8_t step) {
 }
 
 // target = min(target, source + step)
-void Lower(std::uint8_t* __restrict target, const std::uint8_t* source, std::uint8_t step, int count) {
+void Lower(std::uint8_t* __restrict target,
+           const std::uint8_t* source,
+           std::uint8_t step,
+           int count) {
   for (int x = 0; x < count; ++x) target[x] = std::min(target[x], Plus(source[x], step));
 }
 

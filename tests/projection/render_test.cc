@@ -76,7 +76,7 @@ TEST(SurfacePanorama, AgreesWithSingleRays) {
   const CityModel model = MakeCity(TownHouses(2, 2, 32));
   const Scene scene(model, nullptr, {});
   const Eigen::Vector3d eye(60, 60, 2);
-  const PanoramaRange range{{3.0, 0.7}, -0.3, 0.5, 0.03};
+  const PanoramaRange range{{3.0, 0.7, -0.3, 0.5}, 0.03};
   const SurfacePanorama panorama = SurfacesFrom(scene, eye, range);
   ASSERT_EQ(panorama.surfaces.size(), static_cast<std::size_t>(panorama.columns) * panorama.rows);
   std::size_t i = 0;
