@@ -70,7 +70,7 @@ class ScoresOfAHouse : public ::testing::TestWithParam<const char*> {
                  RangeOf(kCamera, {heading_deg, 5.0, 0.0}, {}, kStepRad),
                  score->parts());
     PictureEvidence::Workspace workspace;
-    return {score->Energy(view, pose, workspace), score->unusable()};
+    return {Score::EnergyOf(score->LogRatio(view, pose, workspace)), score->unusable()};
   }
 
   CityModel model_;
