@@ -57,7 +57,8 @@ void Record(const Query& query, const Localizer& localizer, const Settings& sett
   const LocalizerOptions& options = localizer.options();
   const cv::Mat bgr = UndistortImage(BgrOf(input.picture), input.camera);
   const PictureEvidence evidence(
-      bgr, input.camera.Pinhole(), options.lines, options.score.evidence, input.lines);
+      bgr, input.camera.Pinhole(), options.lines, options.score.evidence, settings.threads,
+      input.lines);
   const auto score = MakeScore(options.score, evidence, bgr, input.camera.Pinhole(), localizer.scene(), 1.0);
   const PoseSpace space(
       input.prior, ranges, localizer.scene(), localizer.dtm(), localizer.footprints());
