@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+// Learns the weights of the evidence's cues: those that give the true poses of datasets the highest
+// probability among all poses of their search boxes, and writes them as a configuration.
+#include <ceres/gradient_problem.h>
+#include <ceres/gradient_problem_solver.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "base/parallel.h"
+#include "eval/bench.h"
+#include "eval/world.h"
+#include "localize/pose_space.h"
+
+namespace ridgeline {
+namespace {
+
+struct Settings {
+  std::vector<std::string> datasets;
+  std::string perturb = "10,10,0,20";
+  std::vector<int> seeds = {1};
+  std::string out;
+  LocalizerOptions options;
+};
+
+// The cues of all poses of one search box.
+struct Box {
+  std::vector<CueVector> cues;
+  std::vector<bool> is_near;  // within 2 m and 2 degrees of the truth
+};
+
+Box BoxOf(const Query& query, int seed, const Localizer& localizer, const Settings& settings) {
+  const LocalizerOptions& options = settings.options;
+  const LocalizationInput input = InputOf(query, options);
+  const PictureEvidence evidence(UndistortImage(BgrOf(input.picture), input.camera),
+                                 input.camera.Pinhole(),
+                                 options.lines,
+                                 options.score.evidence,
+                                 0,
+                                 input.lines);
+  const LineLikelihood lines = evidence.Lines(1.0);
+  const Perturbation perturb = ParsePerturbation(settings.perturb);
+  const PoseSpaceOptions ranges = RangesOf(options.search.space, perturb);
+  const PoseSpace space(DrawPrior(*query.truth, perturb, seed, query.id),
+                        ranges,
+                        localizer.scene(),
+                        localizer.dtm(),
+                        localizer.footprints());
+  const PanoramaRange range =
+      RangeOf(evidence.camera(),
+              space.center_angles(),
+              {ranges.heading_deg, 0.0, 0.0},
+              options.score.evidence.surface_step_deg * std::numbers::pi / 180.0);
+  const int east = static_cast<int>(ranges.east_m);
+  const int north = static_cast<int>(ranges.north_m);
+  const int heading = static_cast<int>(ranges.heading_deg);
+  Pose truth = *query.truth;
+  truth.center_in_world -= localizer.scene().model().origin_in_world;
+  std::vector<Box> rows(static_cast<std::size_t>(2 * north + 1));
+  ParallelFor(rows.size(), 0, [&](std::size_t row) {
+    PictureEvidence::Workspace workspace;
+    for (int e = -east; e <= east; ++e) {
+      const auto position = space.PositionAt(e, static_cast<int>(row) - north, 0.0);
+      if (!position) continue;
+      const PositionView view = ViewFrom(localizer.scene(), *position, range, {});
+      for (int h = -heading; h <= heading; ++h) {
+        PoseSpace::Offset offset;
+        offset.heading_deg = h;
+        const Pose pose{CamFromWorld(space.AnglesAt(offset)), *position};
+        const PoseError error = ErrorOf(pose, truth);
+        rows[row].cues.push_back(
+            evidence.Cues(view, localizer.scene().model(), pose, lines, workspace));
+        rows[row].is_near.push_back(error.translation_m <= 2.0 && error.rotation_deg <= 2.0);
+      }
+    }
+  });
+  Box box;
+  for (const Box& row : rows) {
+    box.cues.insert(box.cues.end(), row.cues.begin(), row.cues.end());
+    box.is_near.insert(box.is_near.end(), row.is_near.begin(), row.is_near.end());
+  }
+  return box;
+}
+
+// Mean negative log probability of the poses near the truth under P(pose) ~ exp(sum of w_k cue_k),
+// mixed with a uniform share, so that no single picture decides; the parameters are log w_k.
+class Loss final : public ceres::FirstOrderFunction {
+ public:
+  explicit Loss(const std::vector<Box>& boxes) : boxes_(boxes) {}
+
+  int NumParameters() const override { return kCues; }
+
+  bool Evaluate(const double* logs, double* cost, double* gradient) const override {
+    constexpr double kUniformShare = 0.03;
+    std::array<double, kCues> weights;
+    for (int k = 0; k < kCues; ++k) weights[k] = std::exp(logs[k]);
+    *cost = 0.0;
+    std::array<double, kCues> slope{};
+    for (const Box& box : boxes_) {
+      std::vector<double> sums(box.cues.size(), 0.0);
+      for (std::size_t i = 0; i < sums.size(); ++i) {
+        for (int k = 0; k < kCues; ++k) sums[i] += weights[k] * box.cues[i][k];
+      }
+      const double highest = *std::max_element(sums.begin(), sums.end());
+      double total = 0.0;
+      double near = 0.0;
+      std::array<double, kCues> all_mean{};
+      std::array<double, kCues> near_mean{};
+      for (std::size_t i = 0; i < sums.size(); ++i) {
+        const double p = std::exp(sums[i] - highest);
+        total += p;
+        if (box.is_near[i]) near += p;
+        for (int k = 0; k < kCues; ++k) {
+          all_mean[k] += p * box.cues[i][k];
+          if (box.is_near[i]) near_mean[k] += p * box.cues[i][k];
+        }
+      }
+      const double share = near / total;
+      const double near_share =
+          static_cast<double>(std::count(box.is_near.begin(), box.is_near.end(), true)) /
+          static_cast<double>(sums.size());
+      const double mixed = (1.0 - kUniformShare) * share + kUniformShare * near_share;
+      *cost -= std::log(mixed) / static_cast<double>(boxes_.size());
+      for (int k = 0; k < kCues; ++k) {
+        const double d = near_mean[k] / total - share * all_mean[k] / total;
+        slope[k] -= (1.0 - kUniformShare) * d / mixed / static_cast<double>(boxes_.size());
+      }
+    }
+    if (gradient != nullptr) {
+      for (int k = 0; k < kCues; ++k) gradient[k] = slope[k] * weights[k];
+    }
+    return true;
+  }
+
+ private:
+  const std::vector<Box>& boxes_;
+};
+
+void Learn(const Settings& settings) {
+  std::vector<Box> boxes;
+  for (const std::string& path : settings.datasets) {
+    const Dataset dataset = ReadDataset(path);
+    constexpr double kMarginM = 100.0;
+    const World world = ReadWorld(dataset, kMarginM);
+    const Localizer localizer(world.model, world.dtm, settings.options);
+    for (const Query& query : dataset.queries) {
+      if (!query.truth) continue;
+      for (const int seed : settings.seeds) {
+        Box box = BoxOf(query, seed, localizer, settings);
+        const bool has_near = std::count(box.is_near.begin(), box.is_near.end(), true) > 0;
+        if (has_near) boxes.push_back(std::move(box));
+        std::printf("%s, seed %d: %s\n",
+                    query.id.c_str(),
+                    seed,
+                    has_near ? "used" : "no admissible pose near the truth");
+      }
+    }
+  }
+  if (boxes.empty())
+    throw InputError(settings.datasets.front(), "", "no queries with truth", "some");
+
+  std::array<double, kCues> logs;
+  for (int k = 0; k < kCues; ++k) logs[k] = std::log(settings.options.score.weights[k]);
+  const ceres::GradientProblem problem(new Loss(boxes));
+  ceres::GradientProblemSolver::Options solver;
+  solver.max_num_iterations = 200;
+  ceres::GradientProblemSolver::Summary summary;
+  ceres::Solve(solver, problem, logs.data(), &summary);
+  std::printf("loss of %zu boxes: %.4f with the weights so far, %.4f with these:\n",
+              boxes.size(),
+              summary.initial_cost,
+              summary.final_cost);
+  nlohmann::ordered_json weights = nlohmann::ordered_json::array();
+  for (int k = 0; k < kCues; ++k) {
+    const double weight = std::round(1e4 * std::exp(logs[k])) / 1e4;
+    std::printf("  %-14s %.4f\n", kCueNames[k], weight);
+    weights.push_back(weight);
+  }
+  if (!settings.out.empty()) {
+    WriteFileAtomically(settings.out,
+                        nlohmann::ordered_json{{"score", {{"weights", weights}}}}.dump(2) + "\n");
+  }
+}
+
+}  // namespace
+}  // namespace ridgeline
+
+int main(int argc, char** argv) {
+  ridgeline::Settings settings;
+  std::vector<std::string> assignments;
+  CLI::App app("Learns the weights of the evidence's cues on datasets with truths");
+  app.add_option("datasets", settings.datasets, "dataset.json ...")->required();
+  app.add_option(
+      "--perturb", settings.perturb, "half-ranges of the boxes: east, north, height, heading");
+  app.add_option("--seeds", settings.seeds, "of the priors")->delimiter(',');
+  app.add_option("--set", assignments, "options, as score.evidence.work_size_px=640");
+  app.add_option("--out", settings.out, "configuration to write");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    for (const std::string& assignment : assignments) {
+      ridgeline::SetOption(assignment,
+                           [&](ridgeline::OptionVisitor& v) { settings.options.Visit(v); });
+    }
+    ridgeline::Learn(settings);
+  } catch (const ridgeline::InputError& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 2;
+  }
+  return 0;
+}
