@@ -119,9 +119,8 @@ Transformation ToWgs84(int epsg) {
   return Transformation(OGRCreateCoordinateTransformation(source.get(), wgs84.get()));
 }
 
-// Longitude, latitude [deg].
-std::optional<Eigen::Vector2d> LongitudeLatitude(OGRCoordinateTransformation* transformation,
-                                                 const Eigen::Vector2d& xy) {
+std::optional<Eigen::Vector2d> Transformed(OGRCoordinateTransformation* transformation,
+                                           const Eigen::Vector2d& xy) {
   if (transformation == nullptr) return std::nullopt;
   double x = xy.x();
   double y = xy.y();
@@ -240,8 +239,8 @@ ToProjected::ToProjected(const Crs& source,
   const Transformation to_wgs84 = ToWgs84(source.horizontal_epsg);
   const Eigen::Vector2d as_written(sample.x(), sample.y());
   const Eigen::Vector2d swapped(sample.y(), sample.x());
-  const bool written_fits = InAreaOfUse(*srs, LongitudeLatitude(to_wgs84.get(), as_written));
-  const bool swapped_fits = InAreaOfUse(*srs, LongitudeLatitude(to_wgs84.get(), swapped));
+  const bool written_fits = InAreaOfUse(*srs, Transformed(to_wgs84.get(), as_written));
+  const bool swapped_fits = InAreaOfUse(*srs, Transformed(to_wgs84.get(), swapped));
   swap_ = geographic ? swapped_fits || !written_fits : swapped_fits && !written_fits;
   if (target.horizontal_epsg != 0) {
     crs_.horizontal_epsg = target.horizontal_epsg;
@@ -291,9 +290,33 @@ std::optional<Eigen::Vector2d> LatitudeLongitude(const Crs& crs,
                                                  const Eigen::Vector2d& east_north) {
   if (crs.horizontal_epsg == 0) return std::nullopt;
   const Transformation to_wgs84 = ToWgs84(crs.horizontal_epsg);
-  const std::optional<Eigen::Vector2d> lon_lat = LongitudeLatitude(to_wgs84.get(), east_north);
+  const std::optional<Eigen::Vector2d> lon_lat = Transformed(to_wgs84.get(), east_north);
   if (!lon_lat) return std::nullopt;
   return Eigen::Vector2d(lon_lat->y(), lon_lat->x());
+}
+
+std::optional<Eigen::Vector2d> EastNorth(const Crs& crs,
+                                         double latitude_deg,
+                                         double longitude_deg) {
+  const std::unique_ptr<OGRSpatialReference> wgs84 = Import(4326);
+  const std::unique_ptr<OGRSpatialReference> target = Import(crs.horizontal_epsg);
+  if (wgs84 == nullptr || target == nullptr || target->IsProjected() != TRUE) return std::nullopt;
+  const Transformation transformation(
+      OGRCreateCoordinateTransformation(wgs84.get(), target.get()));
+  return Transformed(transformation.get(), {longitude_deg, latitude_deg});
+}
+
+// True north at a point, by two points of its meridian.
+std::optional<double> MeridianConvergenceDeg(const Crs& crs, const Eigen::Vector2d& east_north) {
+  constexpr double kStepDeg = 1e-3;  // 111 m: the meridian is straight, the numbers are exact
+  constexpr double kDegPerRad = 57.29577951308232;
+  const auto place = LatitudeLongitude(crs, east_north);
+  if (!place) return std::nullopt;
+  const auto south = EastNorth(crs, place->x() - kStepDeg, place->y());
+  const auto north = EastNorth(crs, place->x() + kStepDeg, place->y());
+  if (!south || !north) return std::nullopt;
+  const Eigen::Vector2d meridian = *north - *south;
+  return -std::atan2(meridian.x(), meridian.y()) * kDegPerRad;
 }
 
 }  // namespace ridgeline

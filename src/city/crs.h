@@ -65,4 +65,12 @@ class ToProjected {
 // Shared by callers that show a place on a map.
 std::optional<Eigen::Vector2d> LatitudeLongitude(const Crs& crs, const Eigen::Vector2d& east_north);
 
+// East, north of a geographic position (WGS 84) in a projected system; nullopt where PROJ has no
+// answer.
+std::optional<Eigen::Vector2d> EastNorth(const Crs& crs, double latitude_deg, double longitude_deg);
+
+// Meridian convergence at a point: heading from true north minus heading from grid north [deg].
+// nullopt where PROJ has no answer.
+std::optional<double> MeridianConvergenceDeg(const Crs& crs, const Eigen::Vector2d& east_north);
+
 }  // namespace ridgeline

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "city/build_model.h"
+#include "city/city_store.h"
 #include "city/crs.h"
 #include "city/read_source.h"
 
@@ -141,12 +142,14 @@ void KeepRegion(const CityRegion& region, SourceModel& source) {
 // Moves all sources to one projected system and returns it.
 Crs ProjectSources(std::vector<SourceModel>& sources, const CityOptions& options) {
   const std::optional<Crs> forced = ParseOption("model_crs", options.model_crs);
-  std::optional<Crs> target = ParseOption("project_to", options.project_to);
+  const std::optional<Crs> wanted = ParseOption("project_to", options.project_to);
+  std::optional<Crs> target = wanted;
   std::optional<Crs> common;
   std::string common_file;
   for (SourceModel& source : sources) {
     if (source.points.empty()) continue;
-    const Crs written = CrsOfSource(source, forced);
+    Crs written = CrsOfSource(source, forced);
+    if (written.horizontal_epsg == 0 && wanted) written = *wanted;
     const ToProjected projection(
         written, target.value_or(Crs{}), source.points.front(), source.file);
     projection.Apply(source.points);
@@ -220,6 +223,21 @@ CityModel ReadCity(const std::vector<fs::path>& paths, const CityOptions& option
         "metres (--model-crs EPSG:... says which)");
   }
   return model;
+}
+
+Crs ReadCityCrs(const std::vector<fs::path>& paths, const CityOptions& options) {
+  CityOptions crs_options = options;
+  crs_options.region.reset();
+  const std::vector<fs::path> files = ListModelFiles(paths);
+  if (files.empty()) throw InputError("--model", "", "no file", "one or more model files");
+  if (files.front().extension() == ".gpkg") {
+    CityRegion nowhere;
+    nowhere.positions = Eigen::AlignedBox2d(Eigen::Vector2d::Constant(-1e9));
+    const SourceModel store = ReadCityStore(files.front(), nowhere);
+    const auto target = ParseOption("project_to", options.project_to);
+    return target ? *target : CrsOfSource(store, ParseOption("model_crs", options.model_crs));
+  }
+  return ReadProjectedSources({files.front()}, crs_options).crs;
 }
 
 }  // namespace ridgeline

@@ -15,8 +15,8 @@ namespace ridgeline {
 struct CityOptions {
   // "EPSG:25832" or any spelling of an srsName; overrides what the files say. Empty: the files'.
   std::string model_crs;
-  // Projected system that the model is moved to. Empty: the files' own; for geographic coordinates
-  // the UTM zone of their middle.
+  // Projected system that the model is moved to, and that files which name none are taken to be in.
+  // Empty: the files' own; for geographic coordinates the UTM zone of their middle.
   std::string project_to;
   // Added to the model's heights [m], e.g. minus the geoid undulation where a model has heights
   // above the ellipsoid and the terrain model has not.
@@ -58,5 +58,9 @@ struct CityOptions {
 // model without any building that has a volume. What is dropped or repaired is named in
 // CityModel::warnings.
 CityModel ReadCity(const std::vector<std::filesystem::path>& paths, const CityOptions& options);
+
+// The system that ReadCity puts the model in; horizontal_epsg 0: the model names none. Reads the
+// first file only, of a store its table of contents. Throws InputError as ReadCity.
+Crs ReadCityCrs(const std::vector<std::filesystem::path>& paths, const CityOptions& options);
 
 }  // namespace ridgeline

@@ -12,6 +12,7 @@
 #include "cli/run_outputs.h"
 #include "eval/bench.h"
 #include "eval/bench_files.h"
+#include "eval/picture_input.h"
 #include "eval/world.h"
 
 namespace ridgeline {
@@ -107,6 +108,20 @@ std::vector<RunRecord> ScorePoses(const Dataset& dataset, const fs::path& path) 
   return records;
 }
 
+// Cameras and priors that queries leave to their pictures.
+void CompleteDataset(Dataset& dataset,
+                     bool priors,
+                     const LocalizerOptions& options,
+                     const Context& context) {
+  PictureInputOptions picture_options;
+  picture_options.camera_height_m = options.search.space.camera_height_m;
+  std::vector<std::string> notes;
+  const std::size_t completed = CompleteFromPictures(dataset, priors, picture_options, notes);
+  if (completed == 0) return;
+  context.Note(std::to_string(completed) + " queries take their camera or prior from EXIF and XMP:");
+  for (const std::string& note : notes) context.Note("  " + note);
+}
+
 // With --out the report goes there, unless another place is named.
 RunOutputs OutputsOf(const BenchArguments& arguments) {
   RunOutputs outputs = arguments.outputs;
@@ -126,7 +141,7 @@ std::string CommandOf(const BenchArguments& arguments) {
 }
 
 int RunBenchCommand(const BenchArguments& arguments, const Context& context) {
-  const Dataset dataset = ReadDataset(arguments.dataset);
+  Dataset dataset = ReadDataset(arguments.dataset);
   LocalizerOptions options;
   ApplyConfig(arguments.config, [&](OptionVisitor& v) { options.Visit(v); });
   options.Validate();
@@ -152,6 +167,7 @@ int RunBenchCommand(const BenchArguments& arguments, const Context& context) {
     return kExitOk;
   }
 
+  CompleteDataset(dataset, !bench.perturb, options, context);
   constexpr double kPlaceMarginM = 50.0;
   World world = ReadWorld(dataset, kPlaceMarginM);
   for (const std::string& warning : world.warnings) context.Warn(warning);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/localize.h"
 
-#include <chrono>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -9,9 +9,11 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "city/crs.h"
+#include "city/read_city.h"
 #include "cli/command.h"
 #include "cli/version.h"
 #include "eval/bench.h"
+#include "eval/picture_input.h"
 #include "eval/pose_json.h"
 #include "eval/world.h"
 #include "report/bench_report.h"
@@ -35,6 +37,7 @@ struct LocalizeArguments {
   std::string lines;
   std::string out;
   std::string report;
+  std::optional<double> declination_deg;
   std::uint64_t seed = 1;
   ConfigArguments config;
 };
@@ -42,7 +45,8 @@ struct LocalizeArguments {
 // What is to be localized, and in which model.
 struct Task {
   Query query;
-  Dataset dataset;  // model, DTM and CRS
+  Dataset dataset;    // model, DTM and CRS
+  PictureInput made;  // what the picture itself had to tell
 };
 
 Task TaskOfDataset(const LocalizeArguments& arguments) {
@@ -68,21 +72,72 @@ Task TaskOfFiles(const LocalizeArguments& arguments) {
   };
   require(arguments.image, "IMAGE", "a picture, or --dataset with --query");
   require(arguments.model.empty() ? "" : arguments.model.front(), "--model", "a city model");
-  require(arguments.camera, "--camera", "a camera file: {\"model\", \"width\", \"height\", \"params\"}");
-  require(arguments.prior, "--prior", "a prior file: {\"position\": [east, north], ...}");
   Task task;
   task.query.id = fs::path(arguments.image).stem().string();
   task.query.image = arguments.image;
-  task.query.camera = ReadCamera(arguments.camera);
-  task.query.prior = ReadPrior(arguments.prior);
+  if (!arguments.camera.empty()) task.query.camera = ReadCamera(arguments.camera);
+  if (!arguments.prior.empty()) task.query.prior = ReadPrior(arguments.prior);
   if (!arguments.lines.empty()) task.query.lines = arguments.lines;
-  task.dataset.file = arguments.prior;
+  task.dataset.file = arguments.image;
   task.dataset.name = task.query.id;
   task.dataset.crs = arguments.crs;
   task.dataset.model.assign(arguments.model.begin(), arguments.model.end());
   if (!arguments.dtm.empty()) task.dataset.dtm = arguments.dtm;
   task.dataset.queries = {task.query};
   return task;
+}
+
+// Camera and prior from the picture where nothing else gives them.
+void TakeFromPicture(const LocalizeArguments& arguments, const LocalizerOptions& options, Task& task) {
+  Query& query = task.query;
+  if (query.camera && query.prior) return;
+  Crs crs;
+  if (!query.prior) {
+    CityOptions city;
+    city.project_to = task.dataset.crs;
+    crs = ReadCityCrs(task.dataset.model, city);
+  }
+  PictureInputOptions picture_options;
+  picture_options.declination_deg = arguments.declination_deg;
+  picture_options.camera_height_m = options.search.space.camera_height_m;
+  task.made = ReadPictureInput(query, crs, task.dataset.dtm, picture_options);
+  if (task.made.camera) {
+    query.camera = task.made.camera;
+    query.orientation = task.made.orientation;
+  }
+  if (task.made.prior) query.prior = task.made.prior;
+  if (!query.prior) {
+    throw InputError(query.image.string(),
+                     "position",
+                     "none in its EXIF or XMP",
+                     "--prior FILE with {\"position\": [east, north], \"heading_deg\": ...}");
+  }
+  task.dataset.queries = {query};
+}
+
+// A prior of the picture's own is searched as far as it may be off, unless the user says otherwise.
+void WidenRanges(const PictureInput& made, PoseSpaceOptions& ranges, std::vector<std::string>& notes) {
+  if (!made.prior) return;
+  const PoseSpaceOptions defaults;
+  const auto widen = [](double& range, double default_range, double wanted) {
+    if (range == default_range) range = std::max(range, wanted);
+  };
+  widen(ranges.east_m, defaults.east_m, made.horizontal_m);
+  widen(ranges.north_m, defaults.north_m, made.horizontal_m);
+  widen(ranges.height_m, defaults.height_m, made.height_m);
+  widen(ranges.pitch_deg, defaults.pitch_deg, made.pitch_deg);
+  widen(ranges.roll_deg, defaults.roll_deg, made.roll_deg);
+  char text[200];
+  std::snprintf(text,
+                sizeof(text),
+                "search: within %.0f m east and north, %.0f m up and down, %.0f deg heading, %.0f pitch, "
+                "%.0f roll (--set search.pitch_deg=... and the like)",
+                std::max(ranges.east_m, ranges.north_m),
+                ranges.height_m,
+                made.prior->heading_deg ? ranges.heading_deg : 180.0,
+                ranges.pitch_deg,
+                ranges.roll_deg);
+  notes.push_back(text);
 }
 
 void PrintResult(const BenchRun& run, const Task& task, const Context& context) {
@@ -113,7 +168,7 @@ void PrintResult(const BenchRun& run, const Task& task, const Context& context) 
 }
 
 int RunLocalize(const LocalizeArguments& arguments, const Context& context) {
-  const Task task = arguments.dataset.empty() ? TaskOfFiles(arguments) : TaskOfDataset(arguments);
+  Task task = arguments.dataset.empty() ? TaskOfFiles(arguments) : TaskOfDataset(arguments);
   LocalizerOptions options;
   const VisitOptions visit = [&](OptionVisitor& v) { options.Visit(v); };
   ApplyConfig(arguments.config, visit);
@@ -124,6 +179,9 @@ int RunLocalize(const LocalizeArguments& arguments, const Context& context) {
     if (error) throw InputError("--out", "", arguments.out + ": " + error.message(), "a folder");
     TemporaryBeside(fs::path(arguments.out) / "pose.json");  // fails before the work, not after
   }
+  TakeFromPicture(arguments, options, task);
+  WidenRanges(task.made, options.search.space, task.made.notes);
+  for (const std::string& note : task.made.notes) context.Note(note);
   const PoseSpaceOptions& ranges = options.search.space;
   const World world = ReadWorld(task.dataset, std::max(ranges.east_m, ranges.north_m));
   for (const std::string& warning : world.warnings) context.Warn(warning);
@@ -147,7 +205,7 @@ int RunLocalize(const LocalizeArguments& arguments, const Context& context) {
         out / "report.json",
         RunJson(run.localization, arguments.seed, VersionText(), options_json));
     const cv::Mat photo =
-        UndistortImage(BgrOf(ReadPicture(task.query.image)), *task.query.camera);
+        UndistortImage(BgrOf(ReadPicture(task.query)), *task.query.camera);
     WriteOverlay(photo, ResultOverlay(localizer, task.query.camera->Pinhole(), run), {},
                  out / "overlay.png");
     const ReportData data = BenchReport(origin, task.dataset.queries, localizer, ranges, runs);
@@ -181,6 +239,7 @@ void AddLocalizeCommand(CLI::App& app, Context& context) {
       context,
       {"localize",
        "Finds the pose of one picture.",
+       "ridgeline localize photo.jpg --model city.gpkg --dtm dtm.tif\n"
        "ridgeline localize photo.jpg --model city.gml --dtm dtm.tif --camera camera.json \\\n"
        "    --prior prior.json --out result --report result.html\n"
        "ridgeline localize --dataset town/dataset.json --query street_000 --out result"},
@@ -191,9 +250,12 @@ void AddLocalizeCommand(CLI::App& app, Context& context) {
   command->add_option("--model", arguments->model, "City model: files or folders");
   command->add_option("--dtm", arguments->dtm, "Terrain model (any GDAL raster)");
   command->add_option("--crs", arguments->crs, "Projected system of the prior, e.g. EPSG:25832");
-  command->add_option("--camera", arguments->camera, "Camera file (COLMAP model and parameters)");
+  command->add_option("--camera", arguments->camera,
+                      "Camera file (COLMAP model and parameters); else from the picture's EXIF");
   command->add_option("--prior", arguments->prior,
-                      "Prior file: position, heading_deg, pitch_deg, roll_deg");
+                      "Prior file: position, heading_deg, pitch_deg, roll_deg; else from EXIF, XMP");
+  command->add_option("--declination", arguments->declination_deg,
+                      "Magnetic declination [deg], east positive; else by the World Magnetic Model");
   command->add_option("--lines", arguments->lines,
                       "Segments of another detector, for lines.detector=file");
   command->add_option("--out", arguments->out,

@@ -32,7 +32,7 @@ void WriteOverlayOf(const BenchRun& run,
                     const Query& query,
                     const Localizer& localizer,
                     const fs::path& path) {
-  const cv::Mat photo = UndistortImage(BgrOf(ReadPicture(query.image)), *query.camera);
+  const cv::Mat photo = UndistortImage(BgrOf(ReadPicture(query)), *query.camera);
   WriteOverlay(
       photo, ResultOverlay(localizer, query.camera->Pinhole(), run), OverlayDrawOptions{}, path);
 }

@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "base/error.h"
+#include "camera/picture_camera.h"
 #include "lines/segments_file.h"
 
 namespace ridgeline {
@@ -43,9 +44,13 @@ cv::Mat ReadPicture(const std::filesystem::path& path) {
   return picture;
 }
 
+cv::Mat ReadPicture(const Query& query) {
+  return TurnedUpright(ReadPicture(query.image), query.orientation);
+}
+
 LocalizationInput InputOf(const Query& query, const LocalizerOptions& options) {
   LocalizationInput input;
-  input.picture = ReadPicture(query.image);
+  input.picture = ReadPicture(query);
   if (!query.camera) {
     throw InputError(query.image.string(), "camera", "none", "a camera for query " + query.id);
   }

@@ -48,6 +48,9 @@ PoseSpaceOptions RangesOf(const PoseSpaceOptions& options, const Perturbation& p
 // InputError if it does not decode.
 cv::Mat ReadPicture(const std::filesystem::path& path);
 
+// The picture of a query, turned by the query's orientation.
+cv::Mat ReadPicture(const Query& query);
+
 // The prior and camera of a query, from the dataset or, where absent, from the picture. Throws
 // InputError naming the query.
 LocalizationInput InputOf(const Query& query, const LocalizerOptions& options);

@@ -20,6 +20,9 @@ struct Query {
   std::optional<CameraIntrinsics> camera;      // absent: the picture's own EXIF
   std::optional<PosePrior> prior;              // absent: the picture's own EXIF / XMP
   std::optional<Pose> truth;                   // in the world frame
+  // EXIF orientation by which the picture is turned before use; a picture with a camera of its own
+  // is taken as it is stored.
+  int orientation = 1;
 };
 
 // A set of queries against one model (docs/dataset.md).

@@ -50,7 +50,7 @@ ReportOutcome OutcomeOf(const RunRecord& record) {
 ReportPhoto PhotoOf(const Query& query) {
   ReportPhoto photo;
   photo.name = query.image.filename().string();
-  const cv::Mat picture = UndistortImage(BgrOf(ReadPicture(query.image)), *query.camera);
+  const cv::Mat picture = UndistortImage(BgrOf(ReadPicture(query)), *query.camera);
   photo.width = picture.cols;
   photo.height = picture.rows;
   const double scale =

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -18,68 +17,15 @@
 #include <string>
 #include <thread>
 
+#include "cli/program.h"
+
+namespace ridgeline::testing {
 namespace {
 
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-struct Outcome {
-  int exit_code = -1;
-  std::string text;  // stdout, and stderr unless it was sent elsewhere
-};
-
-Outcome Ridgeline(const std::string& arguments) {
-  const std::string command = std::string(RIDGELINE_PROGRAM) + " " + arguments + " 2>&1";
-  FILE* pipe = ::popen(command.c_str(), "r");
-  Outcome outcome;
-  std::array<char, 4096> buffer{};
-  std::size_t count = 0;
-  while ((count = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0) {
-    outcome.text.append(buffer.data(), count);
-  }
-  const int status = ::pclose(pipe);
-  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return outcome;
-}
-
-// A folder of this process, since ctest runs tests side by side; removed at its end.
-const fs::path& ProcessFolder() {
-  struct Folder {
-    fs::path path =
-        fs::path(::testing::TempDir()) / ("ridgeline cli " + std::to_string(::getpid()));
-    const pid_t owner = ::getpid();
-    ~Folder() {
-      std::error_code ignored;
-      if (::getpid() == owner) fs::remove_all(path, ignored);
-    }
-  };
-  static const Folder folder;
-  return folder.path;
-}
-
-fs::path Scratch(const std::string& name) {
-  const fs::path folder = ProcessFolder() / name;
-  fs::remove_all(folder);
-  fs::create_directories(folder);
-  return folder;
-}
-
-std::string Quoted(const fs::path& path) { return "'" + path.string() + "'"; }
-
-// A town of one small picture; made once.
-const fs::path& Town() {
-  static const fs::path town = [] {
-    const fs::path folder = Scratch("town") / "town";
-    Ridgeline(
-        "synth --quiet --queries 1 --tilted 0 --portrait 0 --drone 0 --size 320x240 "
-        "--set town.blocks_east=2 --set town.blocks_north=2 --out " +
-        Quoted(folder));
-    return folder;
-  }();
-  return town;
-}
 
 TEST(Program, WithoutACommandSaysWhereHelpIs) {
   const Outcome outcome = Ridgeline("");
@@ -302,3 +248,4 @@ TEST(Doctor, ChecksTheSetUp) {
 }
 
 }  // namespace
+}  // namespace ridgeline::testing

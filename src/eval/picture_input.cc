@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "eval/picture_input.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+#include "base/error.h"
+#include "camera/magnetic_declination.h"
+#include "camera/picture_camera.h"
+#include "city/crs.h"
+#include "city/read_city.h"
+#include "city/terrain.h"
+#include "eval/bench.h"
+
+namespace ridgeline {
+namespace {
+
+// A receiver in a street is this far off [m]; a picture that says how far counts twice that.
+constexpr double kReceiverErrorM = 10.0;
+constexpr double kMostErrorM = 40.0;
+// A barometer's drift, and take-off elsewhere than at the height of the terrain below [m].
+constexpr double kTakeoffErrorM = 10.0;
+constexpr double kAltitudeErrorM = 15.0;
+// How level a picture by hand is [deg], and how far a gimbal's angles are off.
+constexpr double kHandPitchDeg = 10.0;
+constexpr double kHandRollDeg = 4.0;
+constexpr double kGimbalErrorDeg = 3.0;
+// The model's epoch, where a picture has no date.
+constexpr double kUnknownYear = 2025.0;
+
+__attribute__((format(printf, 1, 2))) std::string Format(const char* format, ...) {
+  char text[320];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof(text), format, arguments);
+  va_end(arguments);
+  return text;
+}
+
+// From grid north, with words on how it came about.
+double GridHeading(const PictureFacts& facts,
+                   const Crs& crs,
+                   const Eigen::Vector2d& place,
+                   const PictureInputOptions& options,
+                   std::string& words) {
+  const PictureFacts::Direction& direction = *facts.direction;
+  double declination = 0.0;
+  words = Format("%.1f deg from %s north (%s)",
+                 direction.heading_deg,
+                 direction.magnetic ? "magnetic" : "true",
+                 direction.source.c_str());
+  if (direction.magnetic) {
+    if (options.declination_deg) {
+      declination = *options.declination_deg;
+      words += Format(", declination %.1f as given", declination);
+    } else {
+      declination = MagneticDeclinationDeg(facts.place->latitude_deg,
+                                           facts.place->longitude_deg,
+                                           facts.year.value_or(kUnknownYear));
+      words += Format(", declination %.1f by the World Magnetic Model%s",
+                      declination,
+                      facts.year ? "" : " for 2025, the date being unknown");
+    }
+  }
+  const double convergence = MeridianConvergenceDeg(crs, place).value_or(0.0);
+  const double heading = WrapHeadingDeg(direction.heading_deg + declination - convergence);
+  words += Format(", meridian convergence %.2f: %.1f deg from grid north", convergence, heading);
+  return heading;
+}
+
+void SetHeight(const PictureFacts& facts,
+               const std::optional<double>& terrain_m,
+               const PictureInputOptions& options,
+               PosePrior& prior,
+               PictureInput& input) {
+  if (facts.altitude_above_takeoff_m && terrain_m) {
+    prior.height_in_world = *terrain_m + *facts.altitude_above_takeoff_m;
+    input.height_m = kTakeoffErrorM;
+    input.notes.push_back(
+        Format("height: %.1f m = terrain below + %.1f m above take-off, which is assumed to have "
+               "been as high as that terrain",
+               *prior.height_in_world,
+               *facts.altitude_above_takeoff_m));
+    return;
+  }
+  if (terrain_m || !facts.altitude_m) {
+    input.notes.push_back(
+        Format("height: terrain + %.1f m assumed%s",
+               options.camera_height_m,
+               facts.altitude_m ? "; the altitude of the receiver is too rough to be used" : ""));
+    return;
+  }
+  prior.height_in_world = facts.altitude_m;
+  input.height_m = kAltitudeErrorM;
+  input.notes.push_back(
+      Format("height: %.1f m, the picture's altitude %s, taken as the model's height for lack of a "
+             "terrain model (--dtm)",
+             *facts.altitude_m,
+             facts.altitude_above_ellipsoid ? "above the ellipsoid" : "above sea level"));
+}
+
+// The terrain's height at a place; nullopt where the raster has none.
+std::optional<double> TerrainAt(const std::filesystem::path& dtm,
+                                const Crs& crs,
+                                const Eigen::Vector2d& place) {
+  constexpr double kMarginM = 5.0;
+  CityModel frame;
+  frame.crs = crs;
+  frame.origin_in_world = {std::floor(place.x()), std::floor(place.y()), 0.0};
+  const Eigen::Vector2d local = place - frame.origin_in_world.head<2>();
+  std::vector<std::string> warnings;  // come again when the model is read
+  return ReadDtm(dtm, frame, local, local, kMarginM, warnings).HeightAt(local);
+}
+
+}  // namespace
+
+std::optional<PosePrior> PriorOf(const PictureFacts& facts,
+                                 const Crs& crs,
+                                 const std::string& file,
+                                 const std::optional<double>& terrain_m,
+                                 const PictureInputOptions& options,
+                                 PictureInput& input) {
+  if (!facts.place) return std::nullopt;
+  if (crs.horizontal_epsg == 0) {
+    throw InputError("--crs",
+                     "",
+                     "nothing, and a model that names no reference system",
+                     "the model's system, such as EPSG:25832, so that the latitude and longitude of " +
+                         file + " can be placed in it (or --prior FILE)");
+  }
+  const auto place = EastNorth(crs, facts.place->latitude_deg, facts.place->longitude_deg);
+  if (!place) {
+    throw InputError(file,
+                     "position",
+                     Format("latitude %.6f, longitude %.6f",
+                            facts.place->latitude_deg,
+                            facts.place->longitude_deg),
+                     "a place in the reach of " + CrsName(crs) + " (--prior FILE gives another)");
+  }
+  PosePrior prior;
+  prior.position_in_world = *place;
+  input.horizontal_m = kReceiverErrorM;
+  if (facts.horizontal_error_m) {
+    input.horizontal_m =
+        std::clamp(2.0 * *facts.horizontal_error_m, kReceiverErrorM, kMostErrorM);
+  }
+  input.notes.push_back(Format("position: %.6f, %.6f (%s) = %.1f east, %.1f north",
+                               facts.place->latitude_deg,
+                               facts.place->longitude_deg,
+                               facts.place->source.c_str(),
+                               place->x(),
+                               place->y()));
+  SetHeight(facts, terrain_m, options, prior, input);
+  if (facts.direction) {
+    std::string words;
+    prior.heading_deg = GridHeading(facts, crs, *place, options, words);
+    prior.pitch_deg = facts.direction->pitch_deg;
+    prior.roll_deg = facts.direction->roll_deg;
+    input.notes.push_back("heading: " + words);
+  } else {
+    input.notes.push_back("heading: not told by the picture; all directions are searched");
+  }
+  const bool known_tilt = prior.pitch_deg.has_value();
+  input.pitch_deg = known_tilt ? kGimbalErrorDeg : kHandPitchDeg;
+  input.roll_deg = known_tilt ? kGimbalErrorDeg : kHandRollDeg;
+  if (known_tilt) {
+    input.notes.push_back(Format("pitch %.1f, roll %.1f deg (%s)",
+                                 *prior.pitch_deg,
+                                 prior.roll_deg.value_or(0.0),
+                                 facts.direction->source.c_str()));
+  } else {
+    input.notes.push_back("pitch, roll: not told by the picture; held level assumed");
+  }
+  return prior;
+}
+
+PictureInput ReadPictureInput(const Query& query,
+                              const Crs& crs,
+                              const std::optional<std::filesystem::path>& dtm,
+                              const PictureInputOptions& options) {
+  PictureInput input;
+  const cv::Mat stored = ReadPicture(query.image);
+  const PictureFacts facts = ReadPictureFacts(query.image);
+  if (!query.camera) {
+    const PictureCamera made = CameraOf(facts, stored.cols, stored.rows);
+    input.camera = made.camera;
+    input.orientation = facts.orientation;
+    input.notes.push_back(Format("camera: f = %.0f px, ", made.camera.params.front()) +
+                          made.source + "; no distortion assumed" +
+                          (facts.orientation != 1 ? "; turned upright as its EXIF says" : ""));
+  }
+  if (query.prior) return input;
+  std::optional<double> terrain;
+  if (facts.place && dtm) {
+    const auto place = EastNorth(crs, facts.place->latitude_deg, facts.place->longitude_deg);
+    if (place) terrain = TerrainAt(*dtm, crs, *place);
+  }
+  input.prior = PriorOf(facts, crs, query.image.string(), terrain, options, input);
+  // A calibrated picture is not turned; its camera was.
+  const double turned = query.camera ? OrientationRollDeg(facts.orientation) : 0.0;
+  if (input.prior && turned != 0.0) {
+    input.prior->roll_deg = HeadingDifferenceDeg(input.prior->roll_deg.value_or(0.0) + turned, 0.0);
+    input.notes.push_back(
+        Format("roll: %.0f deg, since the calibrated picture is stored on its side (EXIF)",
+               *input.prior->roll_deg));
+  }
+  return input;
+}
+
+std::size_t CompleteFromPictures(Dataset& dataset,
+                                 bool priors,
+                                 const PictureInputOptions& options,
+                                 std::vector<std::string>& notes) {
+  std::size_t completed = 0;
+  std::optional<Crs> crs;
+  for (Query& query : dataset.queries) {
+    if (query.camera && (query.prior || !priors)) continue;
+    if (!crs) {
+      CityOptions city;
+      city.project_to = dataset.crs;
+      crs = ReadCityCrs(dataset.model, city);
+    }
+    const PictureInput input = ReadPictureInput(query, *crs, dataset.dtm, options);
+    if (input.camera) {
+      query.camera = input.camera;
+      query.orientation = input.orientation;
+    }
+    if (input.prior) query.prior = input.prior;
+    for (const std::string& note : input.notes) notes.push_back(query.id + ": " + note);
+    ++completed;
+  }
+  return completed;
+}
+
+}  // namespace ridgeline

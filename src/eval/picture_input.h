@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "camera/picture_facts.h"
+#include "city/city_model.h"
+#include "eval/dataset.h"
+#include "localize/pose_space.h"
+
+namespace ridgeline {
+
+struct PictureInputOptions {
+  // Magnetic declination [deg], east positive. Absent: by the World Magnetic Model.
+  std::optional<double> declination_deg;
+  // Height of a camera above the ground that it stands on [m].
+  double camera_height_m = 1.7;
+};
+
+// What was made of a picture's own words.
+struct PictureInput {
+  std::optional<CameraIntrinsics> camera;  // absent: the query had one
+  std::optional<PosePrior> prior;          // absent: the query had one, or there is no position
+  int orientation = 1;                     // by which the picture is to be turned
+  // How far the prior may be off, as half-ranges of a search.
+  double horizontal_m = 0.0;
+  double height_m = 0.0;
+  double pitch_deg = 0.0;
+  double roll_deg = 0.0;
+  // What was taken from where and what was assumed, one line each.
+  std::vector<std::string> notes;
+};
+
+// Camera and prior that a query lacks, from its picture's EXIF and XMP. Directions are turned from
+// true or magnetic north to grid north. Heights: above take-off, where the picture says it (drones),
+// over the terrain at its place; else the terrain + camera height, since a receiver's height is off
+// by tens of metres; else, without a terrain model, the altitude as it is.
+//
+// @param crs  Projected system of the model.
+// Throws InputError for a picture that cannot be read or does not lie in the system's reach.
+PictureInput ReadPictureInput(const Query& query,
+                              const Crs& crs,
+                              const std::optional<std::filesystem::path>& dtm,
+                              const PictureInputOptions& options);
+
+// The prior that a picture's facts give; nullopt without a position. `terrain_m` is the terrain's
+// height at the place, if known. Notes and half-ranges are added to `input`.
+std::optional<PosePrior> PriorOf(const PictureFacts& facts,
+                                 const Crs& crs,
+                                 const std::string& file,
+                                 const std::optional<double>& terrain_m,
+                                 const PictureInputOptions& options,
+                                 PictureInput& input);
+
+// Gives every query of a dataset the camera and, with `priors`, the prior that its picture tells,
+// where it has none.
+// Returns the number of queries that were given something; `notes` names what was assumed.
+std::size_t CompleteFromPictures(Dataset& dataset,
+                                 bool priors,
+                                 const PictureInputOptions& options,
+                                 std::vector<std::string>& notes);
+
+}  // namespace ridgeline
