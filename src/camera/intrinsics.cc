@@ -19,11 +19,12 @@ struct ModelLayout {
   std::size_t num_tangential;
 };
 
-constexpr std::array<ModelLayout, 5> kModels = {{{"SIMPLE_PINHOLE", 3, false, 0, 0},
+constexpr std::array<ModelLayout, 6> kModels = {{{"SIMPLE_PINHOLE", 3, false, 0, 0},
                                                  {"PINHOLE", 4, true, 0, 0},
                                                  {"SIMPLE_RADIAL", 4, false, 1, 0},
                                                  {"RADIAL", 5, false, 2, 0},
-                                                 {"OPENCV", 8, true, 2, 2}}};
+                                                 {"OPENCV", 8, true, 2, 2},
+                                                 {"FULL_OPENCV", 12, true, 6, 2}}};
 
 const ModelLayout* FindModel(const std::string& name) {
   const auto it = std::find_if(
@@ -36,6 +37,10 @@ struct Distortion {
   double k2 = 0.0;
   double p1 = 0.0;
   double p2 = 0.0;
+  double k3 = 0.0;  // k3 to k6: rational
+  double k4 = 0.0;
+  double k5 = 0.0;
+  double k6 = 0.0;
 };
 
 Distortion DistortionOf(const CameraIntrinsics& camera) {
@@ -48,12 +53,20 @@ Distortion DistortionOf(const CameraIntrinsics& camera) {
     d.p1 = camera.params[first + 2];
     d.p2 = camera.params[first + 3];
   }
+  if (layout.num_radial > 2) {
+    d.k3 = camera.params[first + 4];
+    d.k4 = camera.params[first + 5];
+    d.k5 = camera.params[first + 6];
+    d.k6 = camera.params[first + 7];
+  }
   return d;
 }
 
 Eigen::Vector2d Displacement(const Distortion& d, const Eigen::Vector2d& u) {
   const double r2 = u.squaredNorm();
-  const double radial = d.k1 * r2 + d.k2 * r2 * r2;
+  const double numerator = r2 * (d.k1 + r2 * (d.k2 + r2 * d.k3));
+  const double denominator = r2 * (d.k4 + r2 * (d.k5 + r2 * d.k6));
+  const double radial = (numerator - denominator) / (1.0 + denominator);
   const double xy = u.x() * u.y();
   return {u.x() * radial + 2.0 * d.p1 * xy + d.p2 * (r2 + 2.0 * u.x() * u.x()),
           u.y() * radial + 2.0 * d.p2 * xy + d.p1 * (r2 + 2.0 * u.y() * u.y())};
@@ -102,7 +115,8 @@ void CameraIntrinsics::Validate(const std::string& file, const std::string& fiel
 
 bool CameraIntrinsics::HasDistortion() const {
   const Distortion d = DistortionOf(*this);
-  return d.k1 != 0.0 || d.k2 != 0.0 || d.p1 != 0.0 || d.p2 != 0.0;
+  return d.k1 != 0.0 || d.k2 != 0.0 || d.p1 != 0.0 || d.p2 != 0.0 || d.k3 != 0.0 || d.k4 != 0.0 ||
+         d.k5 != 0.0 || d.k6 != 0.0;
 }
 
 PinholeCamera CameraIntrinsics::Pinhole() const {

@@ -34,7 +34,7 @@ struct PinholeCamera {
 
 // A COLMAP camera: model name and its parameters in COLMAP's order. Supported: SIMPLE_PINHOLE
 // (f, cx, cy), PINHOLE (fx, fy, cx, cy), SIMPLE_RADIAL (f, cx, cy, k), RADIAL (f, cx, cy, k1, k2),
-// OPENCV (fx, fy, cx, cy, k1, k2, p1, p2).
+// OPENCV (fx, fy, cx, cy, k1, k2, p1, p2), FULL_OPENCV (those and k3, k4, k5, k6).
 // Source: COLMAP, src/colmap/sensor/models.h.
 struct CameraIntrinsics {
   std::string model = "PINHOLE";

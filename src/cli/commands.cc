@@ -4,6 +4,7 @@
 #include "cli/augment.h"
 #include "cli/bench.h"
 #include "cli/completion.h"
+#include "cli/convert.h"
 #include "cli/doctor.h"
 #include "cli/index.h"
 #include "cli/info.h"
@@ -26,6 +27,7 @@ constexpr AddFunction kCommands[] = {
     AddStudyCommand,
     AddIndexCommand,
     AddInfoCommand,
+    AddConvertCommand,
     AddRenderCommand,
     AddSkylineCommand,
     AddAugmentCommand,

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/decimals.h"
 #include "city/city_info.h"
 #include "city/crs.h"
 #include "city/read_source.h"
@@ -25,15 +26,9 @@ struct InfoArguments {
   CityOptions city;
 };
 
-// Kept to the decimals that mean something.
-double Rounded(double value, int decimals) {
-  const double scale = std::pow(10.0, decimals);
-  return std::round(value * scale) / scale;
-}
-
 Json Point(const Eigen::VectorXd& p) {
   Json list = Json::array();
-  for (const double value : p) list.push_back(Rounded(value, 3));
+  for (const double value : p) list.push_back(RoundedTo(value, 3));
   return list;
 }
 
@@ -56,21 +51,21 @@ Json CityJsonOf(const CityInfo& info) {
   json["crs"] = CrsName(info.crs);
   json["extent"] = {{"lowest", Point(info.lowest)}, {"highest", Point(info.highest)}};
   if (info.center_lat_lon) {
-    json["center_wgs84"] = {{"latitude", Rounded(info.center_lat_lon->x(), 7)},
-                            {"longitude", Rounded(info.center_lat_lon->y(), 7)}};
+    json["center_wgs84"] = {{"latitude", RoundedTo(info.center_lat_lon->x(), 7)},
+                            {"longitude", RoundedTo(info.center_lat_lon->y(), 7)}};
   }
   json["buildings"] = info.buildings;
   json["building_parts"] = info.parts;
   for (std::size_t c = 0; c < info.surfaces_of_class.size(); ++c) {
     if (info.surfaces_of_class[c] == 0) continue;
     json["surfaces"][SurfaceClassName(static_cast<SurfaceClass>(c))] = {
-        {"count", info.surfaces_of_class[c]}, {"area_m2", Rounded(info.area_of_class[c], 2)}};
+        {"count", info.surfaces_of_class[c]}, {"area_m2", RoundedTo(info.area_of_class[c], 2)}};
   }
   json["surfaces_classified_by_normal"] = info.classified_by_normal;
   json["vertices"] = info.vertices;
   json["triangles"] = info.triangles;
   json["feature_edges"] = {{"folds_and_borders", info.edges},
-                           {"length_m", Rounded(info.edge_length, 1)},
+                           {"length_m", RoundedTo(info.edge_length, 1)},
                            {"seams", info.seams}};
   json["open_shells"] = info.open_shells;
   json["self_intersecting_shells"] = info.crossing_shells;
@@ -96,7 +91,7 @@ Json RasterJsonOf(const RasterInfo& info) {
     json["extent"] = {{"lowest", Point(info.lowest)}, {"highest", Point(info.highest)}};
     if (info.min_value)
       json["heights"] = {{"lowest", *info.min_value}, {"highest", *info.max_value}};
-    json["known_share"] = Rounded(info.known_share, 6);
+    json["known_share"] = RoundedTo(info.known_share, 6);
   }
   if (!info.exif.empty()) json["exif"] = info.exif;
   if (!info.georeferenced) json["xmp"] = info.has_xmp;

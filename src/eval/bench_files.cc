@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/atomic_file.h"
+#include "base/decimals.h"
 #include "base/error.h"
 #include "eval/csv_text.h"
 
@@ -18,7 +19,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json JsonOf(const Spread& spread) {
-  return {{"median", spread.median}, {"mean", spread.mean}, {"mad", spread.mad}};
+  return {{"median", RoundedTo(spread.median, 6)},
+          {"mean", RoundedTo(spread.mean, 6)},
+          {"mad", RoundedTo(spread.mad, 6)}};
 }
 
 Json JsonOf(const Summary& summary) {

@@ -157,7 +157,8 @@ Pose TruthOf(const Node& node) {
   if (std::abs(pose.cam_from_world.norm() - 1.0) > kUnitTolerance) {
     rotation.Fail("norm " + std::to_string(pose.cam_from_world.norm()), "a unit quaternion");
   }
-  pose.cam_from_world.normalize();
+  constexpr double kRounding = 1e-14;  // a unit quaternion stays as it is written
+  if (std::abs(pose.cam_from_world.norm() - 1.0) > kRounding) pose.cam_from_world.normalize();
   return pose;
 }
 

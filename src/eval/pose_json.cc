@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/decimals.h"
 #include "city/crs.h"
 
 namespace ridgeline {
@@ -13,9 +14,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // To 0.1 mm and 1e-9 of an angle or quaternion: what is written is what can be meant.
-double Rounded(double value, double unit) { return std::round(value / unit) * unit; }
-double Metres(double value) { return Rounded(value, 1e-4); }
-double Fine(double value) { return Rounded(value, 1e-9); }
+double Metres(double value) { return RoundedTo(value, 4); }
+double Fine(double value) { return RoundedTo(value, 9); }
 
 Json JsonOf(const Eigen::Vector3d& v) { return {Metres(v.x()), Metres(v.y()), Metres(v.z())}; }
 

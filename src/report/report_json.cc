@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/decimals.h"
 #include "report/map_shapes.h"
 #include "report/picture_file.h"
 #include "report/report_curves.h"
@@ -15,13 +16,13 @@ using Eigen::Vector2d;
 using Json = nlohmann::ordered_json;
 
 // JSON has no NaN; the script takes null for "none".
-Json Number(double value, double step) {
+Json Number(double value, int decimals) {
   if (!std::isfinite(value)) return nullptr;
-  return std::round(value / step) * step;
+  return RoundedTo(value, decimals);
 }
 
-Json Optional(const std::optional<double>& value, double step) {
-  return value ? Number(*value, step) : Json(nullptr);
+Json Optional(const std::optional<double>& value, int decimals) {
+  return value ? Number(*value, decimals) : Json(nullptr);
 }
 
 // Whole hundredths of a metre keep lists short; the script divides.
@@ -37,12 +38,12 @@ Json Centimetres(const std::vector<Vector2d>& points, const Vector2d& origin) {
 Json PoseJson(const std::optional<ReportPose>& pose) {
   if (!pose) return nullptr;
   return {{"position",
-           {Number(pose->position.x(), 1e-3),
-            Number(pose->position.y(), 1e-3),
-            Number(pose->position.z(), 1e-3)}},
-          {"heading", Number(pose->heading_deg, 1e-3)},
-          {"pitch", Number(pose->pitch_deg, 1e-3)},
-          {"roll", Number(pose->roll_deg, 1e-3)}};
+           {Number(pose->position.x(), 3),
+            Number(pose->position.y(), 3),
+            Number(pose->position.z(), 3)}},
+          {"heading", Number(pose->heading_deg, 3)},
+          {"pitch", Number(pose->pitch_deg, 3)},
+          {"roll", Number(pose->roll_deg, 3)}};
 }
 
 // Lines of a layer in tenths of a pixel.
@@ -91,9 +92,9 @@ Vector2d MapOrigin(const ReportRun& run) {
 
 Json MapJson(const ReportEnergyMap& map, const Vector2d& origin) {
   Json energies = Json::array();
-  for (const float energy : map.energies) energies.push_back(Number(energy, 1e-4));
-  return {{"east", Number(map.first.x() - origin.x(), 1e-3)},
-          {"north", Number(map.first.y() - origin.y(), 1e-3)},
+  for (const float energy : map.energies) energies.push_back(Number(energy, 4));
+  return {{"east", Number(map.first.x() - origin.x(), 3)},
+          {"north", Number(map.first.y() - origin.y(), 3)},
           {"spacing", map.spacing_m},
           {"columns", map.columns},
           {"rows", map.rows},
@@ -103,11 +104,11 @@ Json MapJson(const ReportEnergyMap& map, const Vector2d& origin) {
 Json HillshadeJson(const ReportHillshade& hillshade, const Vector2d& origin) {
   return {{"url", JpegDataUrl(hillshade.shade, 512, 85)},
           {"lower",
-           {Number(hillshade.lower.x() - origin.x(), 1e-2),
-            Number(hillshade.lower.y() - origin.y(), 1e-2)}},
+           {Number(hillshade.lower.x() - origin.x(), 2),
+            Number(hillshade.lower.y() - origin.y(), 2)}},
           {"upper",
-           {Number(hillshade.upper.x() - origin.x(), 1e-2),
-            Number(hillshade.upper.y() - origin.y(), 1e-2)}}};
+           {Number(hillshade.upper.x() - origin.x(), 2),
+            Number(hillshade.upper.y() - origin.y(), 2)}}};
 }
 
 Json RunRow(const ReportRun& run) {
@@ -118,21 +119,21 @@ Json RunRow(const ReportRun& run) {
           {"status", run.status},
           {"reason", run.reason},
           {"outcome", OutcomeName(run.outcome)},
-          {"energy", Number(run.energy, 1e-5)},
-          {"confidence", Number(run.confidence, 1e-4)},
-          {"translation", Optional(run.translation_m, 1e-3)},
-          {"rotation", Optional(run.rotation_deg, 1e-3)},
-          {"evaluations", Number(run.evaluations, 1.0)},
-          {"seconds", Number(run.seconds, 1e-3)}};
+          {"energy", Number(run.energy, 5)},
+          {"confidence", Number(run.confidence, 4)},
+          {"translation", Optional(run.translation_m, 3)},
+          {"rotation", Optional(run.rotation_deg, 3)},
+          {"evaluations", Number(run.evaluations, 0)},
+          {"seconds", Number(run.seconds, 3)}};
 }
 
 Json CurveJson(const std::vector<Share95>& curve) {
   Json list = Json::array();
   for (const Share95& s : curve) {
-    list.push_back({Number(s.x, 1e-4),
-                    Number(s.share, 1e-5),
-                    Number(s.lower, 1e-5),
-                    Number(s.upper, 1e-5),
+    list.push_back({Number(s.x, 4),
+                    Number(s.share, 5),
+                    Number(s.lower, 5),
+                    Number(s.upper, 5),
                     s.count});
   }
   return list;
@@ -149,8 +150,8 @@ Json PlotJson(const ReportPlot& plot) {
   for (const ReportSeries& s : plot.series) {
     Json x = Json::array();
     Json y = Json::array();
-    for (const double value : s.x) x.push_back(Number(value, 1e-6));
-    for (const double value : s.y) y.push_back(Number(value, 1e-6));
+    for (const double value : s.x) x.push_back(Number(value, 6));
+    for (const double value : s.y) y.push_back(Number(value, 6));
     series.push_back(
         {{"name", s.name}, {"x", x}, {"y", y}, {"labels", s.labels}, {"line", s.line}});
   }
@@ -219,17 +220,17 @@ std::string RunDetailJson(const ReportRun& run) {
   for (const auto& ring : run.footprints) footprints.push_back(Centimetres(ring, origin));
   Json modes = Json::array();
   for (const ReportMode& mode : run.modes) {
-    modes.push_back({{"pose", PoseJson(mode.pose)}, {"energy", Number(mode.energy, 1e-5)}});
+    modes.push_back({{"pose", PoseJson(mode.pose)}, {"energy", Number(mode.energy, 5)}});
   }
   Json trace = Json::array();
-  for (const double energy : run.best_energy) trace.push_back(Number(energy, 1e-5));
+  for (const double energy : run.best_energy) trace.push_back(Number(energy, 5));
   Json ellipse = nullptr;
   if (run.result && run.position_covariance) {
     ellipse = Centimetres(EllipseOutline(run.result->position.head<2>(), *run.position_covariance),
                           origin);
   }
   return SafeDump(
-      {{"origin", {Number(origin.x(), 1e-3), Number(origin.y(), 1e-3)}},
+      {{"origin", {Number(origin.x(), 3), Number(origin.y(), 3)}},
        {"prior", PoseJson(run.prior)},
        {"result", PoseJson(run.result)},
        {"truth", PoseJson(run.truth)},

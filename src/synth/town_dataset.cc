@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/atomic_file.h"
+#include "base/decimals.h"
 #include "base/error.h"
 #include "base/random.h"
 #include "synth/renderer.h"
@@ -37,10 +38,8 @@ void Require(bool valid, const char* field, double found, const char* expected) 
   if (!valid) throw InputError("", std::string("synth.") + field, std::to_string(found), expected);
 }
 
-double Rounded(double value, double step) { return std::round(value / step) * step; }
-
 Json PositionJson(const Vector3d& world) {
-  return {Rounded(world.x(), 1e-4), Rounded(world.y(), 1e-4), Rounded(world.z(), 1e-4)};
+  return {RoundedTo(world.x(), 4), RoundedTo(world.y(), 4), RoundedTo(world.z(), 4)};
 }
 
 class DatasetWriter {
@@ -193,9 +192,9 @@ class DatasetWriter {
                               ? truth.center_in_world.z() + random.Uniform(-1.0, 1.0)
                               : town.TerrainHeight(xy) + 1.7;
     return {{"position", PositionJson(town.origin_in_world + Vector3d(xy.x(), xy.y(), height))},
-            {"heading_deg", Rounded(WrapHeadingDeg(heading), 1e-3)},
-            {"pitch_deg", Rounded(pitch, 1e-3)},
-            {"roll_deg", Rounded(roll, 1e-3)}};
+            {"heading_deg", RoundedTo(WrapHeadingDeg(heading), 3)},
+            {"pitch_deg", RoundedTo(pitch, 3)},
+            {"roll_deg", RoundedTo(roll, 3)}};
   }
 
   const TownDatasetOptions& options_;

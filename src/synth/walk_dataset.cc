@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "base/atomic_file.h"
+#include "base/decimals.h"
 #include "base/random.h"
 #include "synth/renderer.h"
 #include "synth/town_model.h"
@@ -48,7 +49,7 @@ Json QueryJson(const std::string& id,
             {"height", camera.height},
             {"params", camera.params}}},
           {"truth",
-           {{"position", {p.x(), p.y(), p.z()}},
+           {{"position", {RoundedTo(p.x(), 6), RoundedTo(p.y(), 6), RoundedTo(p.z(), 6)}},
             {"cam_from_world_wxyz", {q.w(), q.x(), q.y(), q.z()}}}}};
 }
 

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "camera/pose.h"
+#include "city/city_model.h"
+
+namespace ridgeline {
+
+// East, north, up [m] at a place on the WGS 84 ellipsoid, and its way to a projected system.
+class Topocentric {
+ public:
+  // Heights of the place and of what comes out are of one kind; above the ellipsoid to be exact.
+  Topocentric(double latitude_deg, double longitude_deg, double height_m);
+
+  // Latitude, longitude [deg] and height [m] of a point.
+  Eigen::Vector3d Geodetic(const Eigen::Vector3d& east_north_up) const;
+
+  // The pose in a projected system: position by PROJ, rotation from the frame's axes to the grid's
+  // at the camera. Throws InputError, naming `file`, where PROJ has no answer.
+  Pose ToProjected(const Pose& pose, const Crs& crs, const std::string& file) const;
+
+ private:
+  Eigen::Vector3d origin_in_earth_;
+  Eigen::Matrix3d earth_from_local_;
+};
+
+}  // namespace ridgeline
