@@ -30,6 +30,9 @@ CityModel BuildModel(std::vector<SourceModel>& sources,
 struct ProjectedSources {
   std::vector<SourceModel> sources;
   Crs crs;
+  // East and north of all buildings, those outside of the region too.
+  Eigen::AlignedBox2d extent;
+  std::vector<std::string> warnings;  // of files that were fetched
 };
 ProjectedSources ReadProjectedSources(const std::vector<std::filesystem::path>& paths,
                                       const CityOptions& options);

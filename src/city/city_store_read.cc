@@ -30,11 +30,27 @@ int CodeOf(GDALDataset& dataset, const char* key) {
   return text != nullptr ? std::atoi(text) : 0;
 }
 
+[[noreturn]] void FailLocked(const std::string& file) {
+  throw InputError(
+      file, "", "a store that another program has locked", "a store that no one is writing");
+}
+
+// GDAL ends a layer early where SQLite fails to go on; the reason is in the last error.
+void CheckRead(const std::string& file) {
+  if (CPLGetLastErrorType() < CE_Failure) return;
+  const std::string said = CPLGetLastErrorMsg();
+  if (said.find("locked") != std::string::npos) FailLocked(file);
+  throw InputError(file, "", "a store that cannot be read (" + said + ")", "a whole store");
+}
+
 DatasetPtr OpenStore(const std::string& file) {
   GDALAllRegister();
+  CPLErrorReset();
   CPLPushErrorHandler(CPLQuietErrorHandler);
   DatasetPtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
   CPLPopErrorHandler();
+  const std::string said = CPLGetLastErrorMsg();
+  if (dataset == nullptr && said.find("locked") != std::string::npos) FailLocked(file);
   if (dataset == nullptr) {
     throw InputError(file,
                      "",
@@ -107,11 +123,20 @@ SourceModel ReadCityStore(const std::filesystem::path& store,
   if (crs.horizontal_epsg != 0) model.srs_names.push_back(CrsName(crs));
   OGRLayer& layer = *dataset->GetLayerByName("buildings");
   FeaturesById features;
+  CPLErrorReset();
+  CPLPushErrorHandler(CPLQuietErrorHandler);
   if (region) {
+    OGREnvelope extent;
+    if (layer.GetExtent(&extent) == OGRERR_NONE) {
+      model.whole_extent = Eigen::AlignedBox2d(Eigen::Vector2d(extent.MinX, extent.MinY),
+                                               Eigen::Vector2d(extent.MaxX, extent.MaxY));
+    }
     features = Query(layer, *region);
   } else {
     Collect(layer, features);
   }
+  CPLPopErrorHandler();
+  CheckRead(model.file);
   // Parts of one whole know each other by the whole's id and their tile.
   std::unordered_map<std::string, int> wholes;
   for (const auto& [id, feature] : features) {

@@ -25,6 +25,16 @@ std::string Number(double value) {
   return text.str();
 }
 
+// "654021..654296 E, 5411980..5412250 N".
+std::string BoxText(const Eigen::AlignedBox2d& box) {
+  const auto whole = [](double value) {
+    return std::isfinite(value) ? std::to_string(static_cast<long long>(std::floor(value)))
+                                : Number(value);
+  };
+  return whole(box.min().x()) + ".." + whole(box.max().x()) + " E, " + whole(box.min().y()) + ".." +
+         whole(box.max().y()) + " N";
+}
+
 void CheckRange(const char* field, double value, double lowest, double highest) {
   if (value >= lowest && value <= highest) return;  // false for NaN
   throw InputError(
@@ -195,16 +205,20 @@ void CityOptions::Validate() const {
 ProjectedSources ReadProjectedSources(const std::vector<fs::path>& paths,
                                       const CityOptions& options) {
   options.Validate();
-  const std::vector<fs::path> files = ListModelFiles(paths);
-  if (files.empty()) throw InputError("--model", "", "no file", "one or more model files");
   ProjectedSources result;
+  const std::vector<fs::path> files = ListModelFiles(paths, options.region, &result.warnings);
+  if (files.empty()) throw InputError("--model", "", "no file", "one or more model files");
   result.sources.resize(files.size());
   ParallelFor(files.size(), options.threads, [&](std::size_t i) {
     result.sources[i] = ReadSource(files[i], options.region);
   });
   result.crs = ProjectSources(result.sources, options);
-  if (options.region) {
-    for (SourceModel& source : result.sources) KeepRegion(*options.region, source);
+  for (SourceModel& source : result.sources) {
+    result.extent.extend(source.whole_extent);
+    for (const Eigen::Vector3d& point : source.points) {
+      result.extent.extend(Eigen::Vector2d(point.head<2>()));
+    }
+    if (options.region) KeepRegion(*options.region, source);
   }
   return result;
 }
@@ -212,6 +226,14 @@ ProjectedSources ReadProjectedSources(const std::vector<fs::path>& paths,
 CityModel ReadCity(const std::vector<fs::path>& paths, const CityOptions& options) {
   ProjectedSources projected = ReadProjectedSources(paths, options);
   CityModel model = BuildModel(projected.sources, projected.crs, options);
+  model.warnings.insert(
+      model.warnings.begin(), projected.warnings.begin(), projected.warnings.end());
+  if (model.triangles.empty() && options.region && !projected.extent.isEmpty()) {
+    throw InputError(paths.front().string(),
+                     "extent",
+                     BoxText(projected.extent),
+                     "buildings near the places asked for, " + BoxText(options.region->positions));
+  }
   if (model.triangles.empty()) {
     std::string found = "no building with a volume";
     for (const std::string& warning : model.warnings) found += "; " + warning;
@@ -226,6 +248,7 @@ CityModel ReadCity(const std::vector<fs::path>& paths, const CityOptions& option
 }
 
 Crs ReadCityCrs(const std::vector<fs::path>& paths, const CityOptions& options) {
+  if (const auto target = ParseOption("project_to", options.project_to)) return *target;
   CityOptions crs_options = options;
   crs_options.region.reset();
   const std::vector<fs::path> files = ListModelFiles(paths);
@@ -234,8 +257,7 @@ Crs ReadCityCrs(const std::vector<fs::path>& paths, const CityOptions& options) 
     CityRegion nowhere;
     nowhere.positions = Eigen::AlignedBox2d(Eigen::Vector2d::Constant(-1e9));
     const SourceModel store = ReadCityStore(files.front(), nowhere);
-    const auto target = ParseOption("project_to", options.project_to);
-    return target ? *target : CrsOfSource(store, ParseOption("model_crs", options.model_crs));
+    return CrsOfSource(store, ParseOption("model_crs", options.model_crs));
   }
   return ReadProjectedSources({files.front()}, crs_options).crs;
 }

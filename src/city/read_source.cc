@@ -11,6 +11,7 @@
 #include "city/read_citygml.h"
 #include "city/read_cityjson.h"
 #include "city/read_obj.h"
+#include "city/web_file.h"
 
 namespace ridgeline {
 namespace fs = std::filesystem;
@@ -24,6 +25,49 @@ std::string ModelExtension(const fs::path& path) {
     return static_cast<char>(std::tolower(c));
   });
   return extension;
+}
+
+// How far from the places asked for tiles of a server are wanted [m]: what is farther is rarely seen.
+constexpr double kTileReachM = 500.0;
+
+// Copies of the file at an address, or of those tiles of a template that the server has.
+void AddWebFiles(const std::string& address,
+                 const std::optional<CityRegion>& region,
+                 std::vector<fs::path>& files,
+                 std::vector<std::string>* warnings) {
+  std::vector<std::string> addresses = {address};
+  if (IsTileAddress(address)) {
+    if (!region) {
+      throw InputError("--model",
+                       "",
+                       address + " without a place",
+                       "a prior in a known system (--crs), or an address without {east} and {north}");
+    }
+    Eigen::AlignedBox2d box = region->positions;
+    box.min().array() -= kTileReachM;
+    box.max().array() += kTileReachM;
+    addresses = TileAddresses(address, box);
+  }
+  std::size_t found = 0;
+  for (const std::string& tile : addresses) {
+    const std::optional<WebFile> file = FetchWebFile(tile);
+    if (!file) continue;
+    ++found;
+    files.push_back(file->path);
+    if (warnings != nullptr && !file->warning.empty()) warnings->push_back(file->warning);
+  }
+  if (found == 0) {
+    throw InputError(addresses.front(),
+                     "",
+                     addresses.size() == 1
+                         ? "no such file on the server"
+                         : "none of " + std::to_string(addresses.size()) + " tiles on the server",
+                     "the address of a model file");
+  }
+  if (warnings != nullptr && found < addresses.size()) {
+    warnings->push_back(address + ": " + std::to_string(addresses.size() - found) + " of " +
+                        std::to_string(addresses.size()) + " tiles are not on the server");
+  }
 }
 
 }  // namespace
@@ -40,10 +84,16 @@ bool LooksLikeModelFile(const fs::path& path) {
   return head.find("CityModel") != std::string::npos || head.find("CityJSON") != std::string::npos;
 }
 
-std::vector<fs::path> ListModelFiles(const std::vector<fs::path>& paths) {
+std::vector<fs::path> ListModelFiles(const std::vector<fs::path>& paths,
+                                     const std::optional<CityRegion>& region,
+                                     std::vector<std::string>* warnings) {
   std::vector<fs::path> files;
   for (const fs::path& path : paths) {
     std::error_code error;
+    if (IsWebAddress(path)) {
+      AddWebFiles(path.string(), region, files, warnings);
+      continue;
+    }
     if (!fs::is_directory(path, error)) {
       files.push_back(path);
       continue;

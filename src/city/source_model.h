@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -50,6 +51,8 @@ struct SourceModel {
   std::vector<SourcePolygon> polygons;
   std::vector<SourceBuilding> buildings;
   Tally tally;
+  // East and north of everything in a store of which a part was read; else empty.
+  Eigen::AlignedBox2d whole_extent;
 };
 
 }  // namespace ridgeline

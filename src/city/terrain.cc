@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "city/crs.h"
+#include "city/web_file.h"
 
 namespace ridgeline {
 namespace {
@@ -43,6 +44,15 @@ DatasetPtr Open(const std::string& file) {
                      "a terrain model such as a GeoTIFF or a VRT");
   }
   return dataset;
+}
+
+// The file itself, or the copy of one on a web server.
+std::string LocalFile(const std::string& file, std::vector<std::string>& warnings) {
+  if (!IsWebAddress(file)) return file;
+  const std::optional<WebFile> copy = FetchWebFile(file);
+  if (!copy) throw InputError(file, "", "no such file on the server", "a terrain model");
+  if (!copy->warning.empty()) warnings.push_back(copy->warning);
+  return copy->path.string();
 }
 
 std::string NameOf(const OGRSpatialReference& srs) {
@@ -254,7 +264,7 @@ HeightGrid ReadDtm(const std::filesystem::path& path,
                    std::vector<std::string>& warnings) {
   const QuietGdal quiet;
   const std::string file = path.string();
-  DatasetPtr dataset = Open(file);
+  DatasetPtr dataset = Open(LocalFile(file, warnings));
   CheckCrs(*dataset, model.crs, file, warnings);
   dataset = Straighten(std::move(dataset), file);
   GeoTransform g;

@@ -8,6 +8,7 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "cli/command.h"
+#include "cli/out_folder.h"
 #include "cli/progress.h"
 #include "cli/run_outputs.h"
 #include "eval/bench.h"
@@ -118,7 +119,8 @@ void CompleteDataset(Dataset& dataset,
   std::vector<std::string> notes;
   const std::size_t completed = CompleteFromPictures(dataset, priors, picture_options, notes);
   if (completed == 0) return;
-  context.Note(std::to_string(completed) + " queries take their camera or prior from EXIF and XMP:");
+  context.Note(std::to_string(completed) +
+               " queries take their camera or prior from EXIF and XMP:");
   for (const std::string& note : notes) context.Note("  " + note);
 }
 
@@ -150,12 +152,7 @@ int RunBenchCommand(const BenchArguments& arguments, const Context& context) {
   bench.seeds.clear();
   for (int k = 0; k < arguments.seeds; ++k) bench.seeds.push_back(arguments.seed + k);
   bench.threads = context.threads;
-  if (!arguments.out.empty()) {
-    std::error_code error;
-    fs::create_directories(arguments.out, error);
-    if (error) throw InputError("--out", "", arguments.out + ": " + error.message(), "a folder");
-    TemporaryBeside(fs::path(arguments.out) / "results.csv");  // fails before the work, not after
-  }
+  const OutFolder out_folder("--out", arguments.out);
   const RunOutputs outputs = OutputsOf(arguments);
   CheckRunOutputs(outputs, true);
   if (!arguments.score_only.empty()) {

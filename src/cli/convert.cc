@@ -88,10 +88,11 @@ int RunConvert(const ConvertArguments& arguments, const Context& context) {
         {"from", from}, {"to", to}, {"out", arguments.out}, {"pictures", count}};
     context.Print(json.dump(2));
   } else {
-    context.Print(arguments.out + ": " + std::to_string(count) + " pictures, from " + from + " to " +
-                  to);
+    context.Print(arguments.out + ": " + std::to_string(count) + " pictures, from " + from +
+                  " to " + to);
     if (count < dataset.queries.size()) {
-      context.Note(std::to_string(dataset.queries.size() - count) + " pictures without a pose left out");
+      context.Note(std::to_string(dataset.queries.size() - count) +
+                   " pictures without a pose left out");
     }
   }
   return kExitOk;
@@ -122,7 +123,9 @@ void AddConvertCommand(CLI::App& app, Context& context) {
                    "File or folder to read; further ones add cameras and poses by picture name")
       ->required();
   command->add_option("--out", arguments->out, "File or folder to write")->required();
-  command->add_option("--from", arguments->from, "Format of the first input: " + Joined(InputFormats()))
+  command
+      ->add_option(
+          "--from", arguments->from, "Format of the first input: " + Joined(InputFormats()))
       ->type_name("FORMAT");
   command->add_option("--to", arguments->to, "Format to write: " + Joined(OutputFormats()))
       ->type_name("FORMAT");

@@ -11,10 +11,12 @@
 #include "city/crs.h"
 #include "city/read_city.h"
 #include "cli/command.h"
+#include "cli/out_folder.h"
 #include "cli/version.h"
 #include "eval/bench.h"
 #include "eval/picture_input.h"
 #include "eval/pose_json.h"
+#include "eval/read_picture.h"
 #include "eval/world.h"
 #include "report/bench_report.h"
 #include "report/html_report.h"
@@ -58,9 +60,11 @@ Task TaskOfDataset(const LocalizeArguments& arguments) {
     if (query.id == arguments.query) task.query = query;
   }
   if (task.query.id.empty()) {
-    throw InputError("--query", "", "\"" + arguments.query + "\"",
-                     "an id of " + arguments.dataset + ", e.g. " +
-                         NearestName(arguments.query, ids));
+    throw InputError(
+        "--query",
+        "",
+        "\"" + arguments.query + "\"",
+        "an id of " + arguments.dataset + ", e.g. " + NearestName(arguments.query, ids));
   }
   task.dataset.queries = {task.query};
   return task;
@@ -88,7 +92,9 @@ Task TaskOfFiles(const LocalizeArguments& arguments) {
 }
 
 // Camera and prior from the picture where nothing else gives them.
-void TakeFromPicture(const LocalizeArguments& arguments, const LocalizerOptions& options, Task& task) {
+void TakeFromPicture(const LocalizeArguments& arguments,
+                     const LocalizerOptions& options,
+                     Task& task) {
   Query& query = task.query;
   if (query.camera && query.prior) return;
   Crs crs;
@@ -116,7 +122,9 @@ void TakeFromPicture(const LocalizeArguments& arguments, const LocalizerOptions&
 }
 
 // A prior of the picture's own is searched as far as it may be off, unless the user says otherwise.
-void WidenRanges(const PictureInput& made, PoseSpaceOptions& ranges, std::vector<std::string>& notes) {
+void WidenRanges(const PictureInput& made,
+                 PoseSpaceOptions& ranges,
+                 std::vector<std::string>& notes) {
   if (!made.prior) return;
   const PoseSpaceOptions defaults;
   const auto widen = [](double& range, double default_range, double wanted) {
@@ -128,16 +136,60 @@ void WidenRanges(const PictureInput& made, PoseSpaceOptions& ranges, std::vector
   widen(ranges.pitch_deg, defaults.pitch_deg, made.pitch_deg);
   widen(ranges.roll_deg, defaults.roll_deg, made.roll_deg);
   char text[200];
-  std::snprintf(text,
-                sizeof(text),
-                "search: within %.0f m east and north, %.0f m up and down, %.0f deg heading, %.0f pitch, "
-                "%.0f roll (--set search.pitch_deg=... and the like)",
-                std::max(ranges.east_m, ranges.north_m),
-                ranges.height_m,
-                made.prior->heading_deg ? ranges.heading_deg : 180.0,
-                ranges.pitch_deg,
-                ranges.roll_deg);
+  std::snprintf(
+      text,
+      sizeof(text),
+      "search: within %.0f m east and north, %.0f m up and down, %.0f deg heading, %.0f pitch, "
+      "%.0f roll (--set search.pitch_deg=... and the like)",
+      std::max(ranges.east_m, ranges.north_m),
+      ranges.height_m,
+      made.prior->heading_deg ? ranges.heading_deg : 180.0,
+      ranges.pitch_deg,
+      ranges.roll_deg);
   notes.push_back(text);
+}
+
+// Whether there is a place at all for the camera: said before the search, since the user can mend
+// it.
+void CheckPlace(const Task& task, const Localizer& localizer, const PoseSpaceOptions& ranges) {
+  const PosePrior& prior = *task.query.prior;
+  const Eigen::Vector2d local =
+      prior.position_in_world - localizer.scene().model().origin_in_world.head<2>();
+  if (!local.allFinite() || !ranges.free_space) return;
+  char place[80];
+  std::snprintf(
+      place, sizeof(place), "%.1f, %.1f", prior.position_in_world.x(), prior.position_in_world.y());
+  constexpr int kSteps = 10;  // each way from the middle
+  bool on_terrain = localizer.dtm() == nullptr;
+  std::optional<PoseSpace> space;
+  for (int i = -kSteps; i <= kSteps; ++i) {
+    for (int j = -kSteps; j <= kSteps; ++j) {
+      const double east = ranges.east_m * i / kSteps;
+      const double north = ranges.north_m * j / kSteps;
+      if (localizer.dtm() != nullptr &&
+          !localizer.dtm()->HeightAt(local + Eigen::Vector2d(east, north))) {
+        continue;
+      }
+      on_terrain = true;
+      if (!space && (prior.height_in_world || localizer.dtm()->HeightAt(local))) {
+        space.emplace(prior, ranges, localizer.scene(), localizer.dtm(), localizer.footprints());
+      }
+      for (const double height : {0.0, ranges.height_m, -ranges.height_m}) {
+        if (space && space->PositionAt(east, north, height)) return;
+      }
+    }
+  }
+  if (!on_terrain || !space) {
+    throw InputError(task.dataset.dtm ? task.dataset.dtm->string() : "prior",
+                     "position",
+                     std::string("no terrain at the prior, ") + place,
+                     "a terrain model that covers the prior");
+  }
+  throw InputError("prior",
+                   "position",
+                   std::string("a place in a building or under ground, ") + place +
+                       ", and none outside of it within the search ranges",
+                   "a place where a camera can be (or larger search.east_m, search.north_m)");
 }
 
 void PrintResult(const BenchRun& run, const Task& task, const Context& context) {
@@ -149,20 +201,31 @@ void PrintResult(const BenchRun& run, const Task& task, const Context& context) 
   }
   const Eigen::Vector3d& c = found.pose->center_in_world;
   const ViewAngles view = ViewAnglesOf(found.pose->cam_from_world);
-  std::snprintf(line, sizeof(line), "position    %.2f %.2f %.2f (east north height)", c.x(), c.y(),
-                c.z());
+  std::snprintf(
+      line, sizeof(line), "position    %.2f %.2f %.2f (east north height)", c.x(), c.y(), c.z());
   context.Print(line);
-  std::snprintf(line, sizeof(line), "direction   heading %.2f, pitch %.2f, roll %.2f deg",
-                view.heading_deg, view.pitch_deg, view.roll_deg);
+  std::snprintf(line,
+                sizeof(line),
+                "direction   heading %.2f, pitch %.2f, roll %.2f deg",
+                view.heading_deg,
+                view.pitch_deg,
+                view.roll_deg);
   context.Print(line);
-  std::snprintf(line, sizeof(line), "confidence  %.2f (energy %.4f)", found.confidence, found.energy);
+  std::snprintf(
+      line, sizeof(line), "confidence  %.2f (energy %.4f)", found.confidence, found.energy);
   context.Print(line);
   if (run.record.error) {
-    std::snprintf(line, sizeof(line), "error       %.2f m, %.2f deg against the truth",
-                  run.record.error->translation_m, run.record.error->rotation_deg);
+    std::snprintf(line,
+                  sizeof(line),
+                  "error       %.2f m, %.2f deg against the truth",
+                  run.record.error->translation_m,
+                  run.record.error->rotation_deg);
     context.Print(line);
   }
-  std::snprintf(line, sizeof(line), "time        %.2f s, %llu poses", run.record.seconds,
+  std::snprintf(line,
+                sizeof(line),
+                "time        %.2f s, %llu poses",
+                run.record.seconds,
                 static_cast<unsigned long long>(found.evaluations));
   context.Print(line);
 }
@@ -173,12 +236,8 @@ int RunLocalize(const LocalizeArguments& arguments, const Context& context) {
   const VisitOptions visit = [&](OptionVisitor& v) { options.Visit(v); };
   ApplyConfig(arguments.config, visit);
   options.Validate();
-  if (!arguments.out.empty()) {
-    std::error_code error;
-    fs::create_directories(arguments.out, error);
-    if (error) throw InputError("--out", "", arguments.out + ": " + error.message(), "a folder");
-    TemporaryBeside(fs::path(arguments.out) / "pose.json");  // fails before the work, not after
-  }
+  const OutFolder out_folder("--out", arguments.out);
+  CheckFileToWrite("--report", arguments.report);
   TakeFromPicture(arguments, options, task);
   WidenRanges(task.made, options.search.space, task.made.notes);
   for (const std::string& note : task.made.notes) context.Note(note);
@@ -186,27 +245,31 @@ int RunLocalize(const LocalizeArguments& arguments, const Context& context) {
   const World world = ReadWorld(task.dataset, std::max(ranges.east_m, ranges.north_m));
   for (const std::string& warning : world.warnings) context.Warn(warning);
   const Localizer localizer(world.model, world.dtm, options);
+  CheckPlace(task, localizer, ranges);
 
   BenchOptions bench;
   bench.seeds = {static_cast<int>(arguments.seed)};
   bench.threads = context.threads;
   const std::vector<BenchRun> runs = RunBench(task.dataset, localizer, bench, {});
   const BenchRun& run = runs.front();
-  const std::string pose_json =
-      PoseJson(task.query.image.string(), run.localization, world.model);
+  for (const std::string& warning : run.localization.warnings) context.Warn(warning);
+  const std::string pose_json = PoseJson(task.query.image.string(), run.localization, world.model);
   const std::string options_json = OptionsToJson(visit);
 
-  const ReportOrigin origin{"Pose of " + task.query.image.filename().string(), "ridgeline localize",
-                            VersionText(), CrsName(world.model.crs), options_json};
+  const ReportOrigin origin{"Pose of " + task.query.image.filename().string(),
+                            "ridgeline localize",
+                            VersionText(),
+                            CrsName(world.model.crs),
+                            options_json};
   if (!arguments.out.empty()) {
     const fs::path out = arguments.out;
     WriteFileAtomically(out / "pose.json", pose_json);
-    WriteFileAtomically(
-        out / "report.json",
-        RunJson(run.localization, arguments.seed, VersionText(), options_json));
-    const cv::Mat photo =
-        UndistortImage(BgrOf(ReadPicture(task.query)), *task.query.camera);
-    WriteOverlay(photo, ResultOverlay(localizer, task.query.camera->Pinhole(), run), {},
+    WriteFileAtomically(out / "report.json",
+                        RunJson(run.localization, arguments.seed, VersionText(), options_json));
+    const cv::Mat photo = UndistortImage(BgrOf(ReadPicture(task.query)), *task.query.camera);
+    WriteOverlay(photo,
+                 ResultOverlay(localizer, task.query.camera->Pinhole(), run),
+                 {},
                  out / "overlay.png");
     const ReportData data = BenchReport(origin, task.dataset.queries, localizer, ranges, runs);
     WriteMap(data.runs, world.model.crs.horizontal_epsg, out / "map.geojson");
@@ -245,20 +308,27 @@ void AddLocalizeCommand(CLI::App& app, Context& context) {
        "ridgeline localize --dataset town/dataset.json --query street_000 --out result"},
       [arguments](Context& c) { return RunLocalize(*arguments, c); });
   command->add_option("image", arguments->image, "Picture");
-  command->add_option("--dataset", arguments->dataset, "Take picture, model and prior from a dataset");
+  command->add_option(
+      "--dataset", arguments->dataset, "Take picture, model and prior from a dataset");
   command->add_option("--query", arguments->query, "Id of the query in --dataset");
   command->add_option("--model", arguments->model, "City model: files or folders");
   command->add_option("--dtm", arguments->dtm, "Terrain model (any GDAL raster)");
   command->add_option("--crs", arguments->crs, "Projected system of the prior, e.g. EPSG:25832");
-  command->add_option("--camera", arguments->camera,
+  command->add_option("--camera",
+                      arguments->camera,
                       "Camera file (COLMAP model and parameters); else from the picture's EXIF");
-  command->add_option("--prior", arguments->prior,
-                      "Prior file: position, heading_deg, pitch_deg, roll_deg; else from EXIF, XMP");
-  command->add_option("--declination", arguments->declination_deg,
-                      "Magnetic declination [deg], east positive; else by the World Magnetic Model");
-  command->add_option("--lines", arguments->lines,
-                      "Segments of another detector, for lines.detector=file");
-  command->add_option("--out", arguments->out,
+  command->add_option(
+      "--prior",
+      arguments->prior,
+      "Prior file: position, heading_deg, pitch_deg, roll_deg; else from EXIF, XMP");
+  command->add_option(
+      "--declination",
+      arguments->declination_deg,
+      "Magnetic declination [deg], east positive; else by the World Magnetic Model");
+  command->add_option(
+      "--lines", arguments->lines, "Segments of another detector, for lines.detector=file");
+  command->add_option("--out",
+                      arguments->out,
                       "Folder for pose.json, report.json, overlay.png, map.geojson, energy.tif");
   command->add_option("--report", arguments->report, "HTML report");
   command->add_option("--seed", arguments->seed, "Seed of the samplers (default 1)");

@@ -6,7 +6,9 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "cli/file_name.h"
+#include "cli/out_folder.h"
 #include "cli/version.h"
+#include "eval/read_picture.h"
 #include "report/bench_report.h"
 #include "report/html_report.h"
 #include "report/map_files.h"
@@ -18,14 +20,6 @@ namespace fs = std::filesystem;
 
 std::string OverlayName(const RunRecord& record, bool seeds) {
   return FileNameOf(record.query) + (seeds ? "_" + std::to_string(record.seed) : "") + ".jpg";
-}
-
-void CheckFolderOf(const std::string& option, const std::string& file) {
-  if (file.empty()) return;
-  const fs::path folder = fs::path(file).parent_path();
-  std::error_code error;
-  if (folder.empty() || fs::is_directory(folder, error)) return;
-  throw InputError(option, "", file, "a file in an existing folder");
 }
 
 void WriteOverlayOf(const BenchRun& run,
@@ -56,11 +50,11 @@ void AddRunOutputOptions(CLI::App& command, RunOutputs& outputs, bool many) {
 }
 
 void CheckRunOutputs(const RunOutputs& outputs, bool many) {
-  CheckFolderOf("--report", outputs.report);
-  CheckFolderOf("--map", outputs.map);
-  CheckFolderOf("--energy-map", outputs.energy_map);
+  CheckFileToWrite("--report", outputs.report);
+  CheckFileToWrite("--map", outputs.map);
+  CheckFileToWrite("--energy-map", outputs.energy_map);
   if (!many) {
-    CheckFolderOf("--overlay", outputs.overlays);
+    CheckFileToWrite("--overlay", outputs.overlays);
     return;
   }
   if (outputs.overlays.empty()) return;

@@ -3,10 +3,9 @@
 
 #include <chrono>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 
 #include "base/error.h"
-#include "camera/picture_camera.h"
+#include "eval/read_picture.h"
 #include "lines/segments_file.h"
 
 namespace ridgeline {
@@ -27,25 +26,6 @@ PoseSpaceOptions RangesOf(const PoseSpaceOptions& options, const Perturbation& p
   ranges.pitch_deg = perturb.pitch_deg;
   ranges.roll_deg = perturb.roll_deg;
   return ranges;
-}
-
-cv::Mat ReadPicture(const std::filesystem::path& path) {
-  if (!std::filesystem::is_regular_file(path)) {
-    throw InputError(path.string(), "", "no such file", "a picture");
-  }
-  const cv::Mat picture =
-      cv::imread(path.string(), cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
-  if (picture.empty()) {
-    throw InputError(path.string(), "", "a file that does not decode", "a picture (JPEG, PNG, TIFF)");
-  }
-  if (picture.depth() != CV_8U && picture.depth() != CV_16U) {
-    throw InputError(path.string(), "", "pixels of another type", "8 or 16 bit integers");
-  }
-  return picture;
-}
-
-cv::Mat ReadPicture(const Query& query) {
-  return TurnedUpright(ReadPicture(query.image), query.orientation);
 }
 
 LocalizationInput InputOf(const Query& query, const LocalizerOptions& options) {

@@ -44,13 +44,6 @@ std::vector<BenchRun> RunBench(const Dataset& dataset,
 // Half-ranges of the search for made priors: those of the perturbation.
 PoseSpaceOptions RangesOf(const PoseSpaceOptions& options, const Perturbation& perturb);
 
-// The picture of a query as ridgeline reads all pictures: EXIF orientation does not turn it. Throws
-// InputError if it does not decode.
-cv::Mat ReadPicture(const std::filesystem::path& path);
-
-// The picture of a query, turned by the query's orientation.
-cv::Mat ReadPicture(const Query& query);
-
 // The prior and camera of a query, from the dataset or, where absent, from the picture. Throws
 // InputError naming the query.
 LocalizationInput InputOf(const Query& query, const LocalizerOptions& options);

@@ -10,6 +10,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "city/web_file.h"
 
 namespace ridgeline {
 namespace {
@@ -108,11 +109,20 @@ class Node {
 };
 
 Json ParseFile(const std::filesystem::path& path) {
+  const std::string text = ReadFile(path);
   try {
-    return Json::parse(ReadFile(path));
+    return Json::parse(text);
   } catch (const Json::parse_error& e) {
-    throw InputError(
-        path.string(), "byte " + std::to_string(e.byte), "text that is not JSON", "valid JSON");
+    constexpr std::size_t kShown = 20;
+    const std::size_t at = e.byte > 0 ? e.byte - 1 : 0;
+    std::string near = text.substr(std::min(at, text.size()), kShown);
+    near.erase(std::min(near.find('\n'), near.size()));
+    throw InputError(path.string(),
+                     "byte " + std::to_string(e.byte),
+                     near.empty() ? "a file that ends early" : "\"" + near + "\", which is not JSON",
+                     "valid JSON (there is no NaN in it)");
+  } catch (const Json::out_of_range&) {
+    throw InputError(path.string(), "", "a number that is too large", "numbers below 1e308");
   }
 }
 
@@ -187,9 +197,12 @@ Dataset ReadDataset(const std::filesystem::path& path) {
   dataset.file = path;
   dataset.name = root.At("name").Text();
   if (const auto crs = root.Find("crs")) dataset.crs = crs->Text();
-  for (const Node& model : root.At("model").List()) dataset.model.push_back(folder / model.Text());
+  const auto place = [&](const std::string& text) {
+    return IsWebAddress(text) ? std::filesystem::path(text) : folder / text;
+  };
+  for (const Node& model : root.At("model").List()) dataset.model.push_back(place(model.Text()));
   if (dataset.model.empty()) root.At("model").Fail("an empty list", "at least one model file");
-  if (const auto dtm = root.Find("dtm")) dataset.dtm = folder / dtm->Text();
+  if (const auto dtm = root.Find("dtm")) dataset.dtm = place(dtm->Text());
   std::set<std::string> ids;
   for (const Node& node : root.At("queries").List()) {
     dataset.queries.push_back(QueryOf(node, folder));

@@ -12,7 +12,7 @@
 #include "city/crs.h"
 #include "city/read_city.h"
 #include "city/terrain.h"
-#include "eval/bench.h"
+#include "eval/read_picture.h"
 
 namespace ridgeline {
 namespace {

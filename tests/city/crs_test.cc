@@ -104,5 +104,22 @@ TEST(ToProjected, GoesToTheSystemAskedFor) {
   EXPECT_THROW(ToProjected({6668, 0}, {4326, 0}, {35.6, 139.7, 3.0}, "f"), InputError);
 }
 
+// By Krueger's series (fourth order) on GRS 80, worked out apart from PROJ.
+TEST(EastNorth, AgreesWithKruegersSeries) {
+  const auto place = EastNorth({25832, 0}, 48.148912, 11.567891);
+  ASSERT_TRUE(place.has_value());
+  EXPECT_NEAR(place->x(), 690994.268718, 1e-3);
+  EXPECT_NEAR(place->y(), 5336040.500417, 1e-3);
+  EXPECT_FALSE(EastNorth({4326, 0}, 48.0, 11.0).has_value());
+  EXPECT_FALSE(EastNorth({0, 0}, 48.0, 11.0).has_value());
+}
+
+TEST(MeridianConvergence, AgreesWithKruegersSeriesOnBothSides) {
+  EXPECT_NEAR(*MeridianConvergenceDeg({25832, 0}, {690994.2687, 5336040.5004}), 1.9133495, 1e-5);
+  EXPECT_NEAR(*MeridianConvergenceDeg({25832, 0}, {440495.7468, 5333160.8369}), -0.5959225, 1e-5);
+  EXPECT_NEAR(*MeridianConvergenceDeg({25832, 0}, {500000.0, 5333160.0}), 0.0, 1e-6);
+  EXPECT_FALSE(MeridianConvergenceDeg({0, 0}, {500000.0, 5333160.0}).has_value());
+}
+
 }  // namespace
 }  // namespace ridgeline

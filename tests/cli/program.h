@@ -15,8 +15,8 @@ struct Outcome {
 // Runs the program with a shell's command line.
 Outcome Ridgeline(const std::string& arguments);
 
-// An empty folder of this process, since ctest runs tests side by side; removed at its end. Its path
-// has a blank, as users' paths have.
+// An empty folder of this process, since ctest runs tests side by side; removed at its end. Its
+// path has a blank, as users' paths have.
 std::filesystem::path Scratch(const std::string& name);
 
 // For a shell.

@@ -12,7 +12,7 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "camera/magnetic_declination.h"
-#include "eval/bench.h"
+#include "eval/read_picture.h"
 #include "support/exif_writer.h"
 
 namespace ridgeline {

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <opencv2/core/mat.hpp>
+
+#include "eval/dataset.h"
+
+namespace ridgeline {
+
+// A picture as ridgeline reads all pictures: 8 or 16 bit, as stored, EXIF orientation does not turn
+// it. Throws InputError if it does not decode or ends early, which OpenCV fills up with grey.
+cv::Mat ReadPicture(const std::filesystem::path& path);
+
+// The picture of a query, turned by the query's orientation. Throws InputError also if its size is
+// not the query's camera's.
+cv::Mat ReadPicture(const Query& query);
+
+}  // namespace ridgeline
