@@ -71,10 +71,9 @@ Legendre LegendreAt(double theta) {
   for (int n = 1; n <= kDegree; ++n) {
     for (int m = 0; m < n; ++m) {
       const double a = (2.0 * n - 1.0) / std::sqrt(static_cast<double>(n * n - m * m));
-      const double b =
-          n - 1 > m ? std::sqrt(static_cast<double>((n - 1) * (n - 1) - m * m)) /
-                          std::sqrt(static_cast<double>(n * n - m * m))
-                    : 0.0;
+      const double b = n - 1 > m ? std::sqrt(static_cast<double>((n - 1) * (n - 1) - m * m)) /
+                                       std::sqrt(static_cast<double>(n * n - m * m))
+                                 : 0.0;
       const double before = n >= 2 ? l.p[n - 2][m] : 0.0;
       const double before_d = n >= 2 ? l.dp[n - 2][m] : 0.0;
       l.p[n][m] = a * c * l.p[n - 1][m] - b * before;
@@ -98,8 +97,7 @@ double MagneticDeclinationDeg(double latitude_deg, double longitude_deg, double 
   const double latitude = latitude_deg * kRadPerDeg;
   const double longitude = longitude_deg * kRadPerDeg;
   const double vertical =
-      kSemiMajorKm /
-      std::sqrt(1.0 - kEccentricity2 * std::sin(latitude) * std::sin(latitude));
+      kSemiMajorKm / std::sqrt(1.0 - kEccentricity2 * std::sin(latitude) * std::sin(latitude));
   const double from_axis = vertical * std::cos(latitude);
   const double above_equator = vertical * (1.0 - kEccentricity2) * std::sin(latitude);
   const double radius = std::hypot(from_axis, above_equator);

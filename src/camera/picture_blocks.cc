@@ -25,7 +25,8 @@ std::uint32_t BigEndian(std::string_view bytes, std::size_t at, std::size_t size
 
 std::uint32_t LittleEndian(std::string_view bytes, std::size_t at) {
   std::uint32_t value = 0;
-  for (std::size_t i = 4; i-- > 0;) value = (value << 8) | static_cast<unsigned char>(bytes[at + i]);
+  for (std::size_t i = 4; i-- > 0;)
+    value = (value << 8) | static_cast<unsigned char>(bytes[at + i]);
   return value;
 }
 

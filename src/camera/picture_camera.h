@@ -19,9 +19,9 @@ struct PictureCamera {
 };
 
 // The camera of a picture as it is shown, upright, with square pixels, the principal point in the
-// middle and no distortion. The focal length: calibrated by the maker; else the 35 mm equivalent (by
-// diagonals, as CIPA DCG-001 defines it); else the focal length with the resolution of the sensor's
-// plane, or with the width of the sensor; else that of a phone's main camera.
+// middle and no distortion. The focal length: calibrated by the maker; else the 35 mm equivalent
+// (by diagonals, as CIPA DCG-001 defines it); else the focal length with the resolution of the
+// sensor's plane, or with the width of the sensor; else that of a phone's main camera.
 //
 // @param width, height  Of the stored picture [px], before EXIF orientation.
 PictureCamera CameraOf(const PictureFacts& facts, int width, int height);

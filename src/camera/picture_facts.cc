@@ -137,7 +137,8 @@ void TakeExif(const ExifItems& exif, PictureFacts& facts) {
                         Degrees(exif.gps, kGpsLongitude, kGpsLongitudeRef, 'W'),
                         "EXIF");
   facts.horizontal_error_m = Positive(exif.gps, kGpsHPositioningError);
-  // References: 0 and 1 above and below sea level, 2 and 3 above and below the ellipsoid (Exif 3.0).
+  // References: 0 and 1 above and below sea level, 2 and 3 above and below the ellipsoid
+  // (Exif 3.0).
   const double reference = Number(exif.gps, kGpsAltitudeRef).value_or(0.0);
   if (const auto altitude = Number(exif.gps, kGpsAltitude)) {
     facts.altitude_m = reference == 1.0 || reference == 3.0 ? -*altitude : *altitude;
@@ -157,8 +158,8 @@ PictureFacts::Direction DirectionOf(const Eigen::Quaterniond& cam_from_world, co
   return {angles.heading_deg, false, angles.pitch_deg, angles.roll_deg, source};
 }
 
-// The gimbal's yaw from north, pitch up from the horizon (-90: straight down), then roll: the angles
-// of ViewAngles.
+// The gimbal's yaw from north, pitch up from the horizon (-90: straight down), then roll: the
+// angles of ViewAngles.
 void TakeDji(const XmpProperties& xmp, PictureFacts& facts) {
   const auto number = [&](const char* name) { return Number(xmp, kDji + std::string(name)); };
   const auto longitude = number("GpsLongitude");
@@ -174,14 +175,13 @@ void TakeDji(const XmpProperties& xmp, PictureFacts& facts) {
   }
   const auto yaw = number("GimbalYawDegree");
   if (!yaw) return;
-  const ViewAngles angles{*yaw,
-                          number("GimbalPitchDegree").value_or(0.0),
-                          number("GimbalRollDegree").value_or(0.0)};
+  const ViewAngles angles{
+      *yaw, number("GimbalPitchDegree").value_or(0.0), number("GimbalRollDegree").value_or(0.0)};
   facts.direction = DirectionOf(CamFromWorld(angles), "DJI's XMP");
 }
 
-// Pix4D's body has x to the front, y to the right, z down; yaw, pitch, roll turn it about z, y, x. A
-// camera at zero looks down with the picture's top to the front, so pitch = 90 looks ahead: DJI's
+// Pix4D's body has x to the front, y to the right, z down; yaw, pitch, roll turn it about z, y, x.
+// A camera at zero looks down with the picture's top to the front, so pitch = 90 looks ahead: DJI's
 // pitch + 90. Source: Pix4D support, "How are yaw, pitch, roll defined?".
 void TakePix4d(const XmpProperties& xmp, PictureFacts& facts) {
   const auto yaw = Pix4d(xmp, "Yaw");

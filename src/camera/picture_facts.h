@@ -15,14 +15,14 @@ struct PictureFacts {
   // EXIF orientation, 1 to 8: how the stored rows and columns are to be shown.
   int orientation = 1;
   std::string make;
-  std::string camera;             // model name
-  std::optional<double> year;     // decimal
-  std::optional<double> zoom;     // digital, >= 1
+  std::string camera;          // model name
+  std::optional<double> year;  // decimal
+  std::optional<double> zoom;  // digital, >= 1
   std::optional<double> focal_mm;
-  std::optional<double> focal_35mm;           // equivalent on 36 x 24 mm
-  std::optional<double> plane_px_per_mm;      // resolution of the sensor's plane
-  std::optional<double> plane_width_px;       // width that resolution belongs to
-  std::optional<double> focal_px;             // calibrated by the maker
+  std::optional<double> focal_35mm;       // equivalent on 36 x 24 mm
+  std::optional<double> plane_px_per_mm;  // resolution of the sensor's plane
+  std::optional<double> plane_width_px;   // width that resolution belongs to
+  std::optional<double> focal_px;         // calibrated by the maker
 
   struct Place {
     double latitude_deg = 0.0;  // WGS 84

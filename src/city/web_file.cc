@@ -28,7 +28,8 @@ fs::path CacheFolder(const WebOptions& options) {
     return std::string(value != nullptr ? value : "");
   };
   if (!variable("RIDGELINE_CACHE").empty()) return variable("RIDGELINE_CACHE");
-  if (!variable("XDG_CACHE_HOME").empty()) return fs::path(variable("XDG_CACHE_HOME")) / "ridgeline";
+  if (!variable("XDG_CACHE_HOME").empty())
+    return fs::path(variable("XDG_CACHE_HOME")) / "ridgeline";
   if (!variable("HOME").empty()) return fs::path(variable("HOME")) / ".cache" / "ridgeline";
   return fs::temp_directory_path() / "ridgeline-cache";
 }
@@ -80,8 +81,8 @@ Answer Download(const std::string& address,
   if (!date.empty()) words.SetNameValue("HEADERS", ("If-Modified-Since: " + date).c_str());
   Receiver receiver{std::ofstream(file, std::ios::binary), 0};
   CPLPushErrorHandler(CPLQuietErrorHandler);
-  const std::unique_ptr<CPLHTTPResult, ResultCloser> result(CPLHTTPFetchEx(
-      address.c_str(), words.List(), nullptr, nullptr, Receive, &receiver));
+  const std::unique_ptr<CPLHTTPResult, ResultCloser> result(
+      CPLHTTPFetchEx(address.c_str(), words.List(), nullptr, nullptr, Receive, &receiver));
   CPLPopErrorHandler();
   receiver.stream.close();
   Answer answer;
@@ -90,8 +91,7 @@ Answer Download(const std::string& address,
     return answer;
   }
   const std::string said = result->pszErrBuf != nullptr ? result->pszErrBuf : "";
-  answer.missing =
-      said.find("404") != std::string::npos || said.find("410") != std::string::npos;
+  answer.missing = said.find("404") != std::string::npos || said.find("410") != std::string::npos;
   if (!receiver.stream) {
     answer.error = "a disk without room in the cache folder";
   } else if (!said.empty() || result->nStatus != 0) {
@@ -126,10 +126,8 @@ Placeholder Find(const std::string& address, const std::string& name) {
   const bool divided = after < address.size() && address[after] == '/';
   if (divided) found.kilometres = std::atoi(address.c_str() + after + 1);
   if (end == std::string::npos || found.kilometres < 1 || (!divided && end != after)) {
-    throw InputError("--model",
-                     "",
-                     address,
-                     "{east} and {north}, or {east/2} and {north/2} for tiles of 2 km");
+    throw InputError(
+        "--model", "", address, "{east} and {north}, or {east/2} and {north/2} for tiles of 2 km");
   }
   found.size = end + 1 - found.begin;
   return found;

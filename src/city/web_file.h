@@ -9,8 +9,9 @@
 
 namespace ridgeline {
 
-// Files on web servers, kept in a cache on the disk. A copy that is there is used again if the server
-// says that it is unchanged, or says nothing at all; a download that ends early is never kept.
+// Files on web servers, kept in a cache on the disk. A copy that is there is used again if the
+// server says that it is unchanged, or says nothing at all; a download that ends early is never
+// kept.
 struct WebOptions {
   // Empty: $RIDGELINE_CACHE, else $XDG_CACHE_HOME/ridgeline, else ~/.cache/ridgeline.
   std::filesystem::path cache;
@@ -29,8 +30,8 @@ struct WebFile {
 };
 
 // The local copy of a file; nullopt if the server has no such file (404, 410). Throws InputError,
-// naming the address, for a server that cannot be reached, is too slow, answers with another error or
-// sends half of the file, while there is no earlier copy.
+// naming the address, for a server that cannot be reached, is too slow, answers with another error
+// or sends half of the file, while there is no earlier copy.
 std::optional<WebFile> FetchWebFile(const std::string& address, const WebOptions& options = {});
 
 // Whether an address stands for many tiles: it has {east} and {north}, the kilometres of a tile's

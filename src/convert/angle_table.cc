@@ -22,7 +22,8 @@ struct Column {
 
 const std::array<Column, 7>& Columns() {
   static const std::array<Column, 7> columns = {{
-      {"image", {"image", "imagename", "name", "label", "photo", "filename", "file", "query", "id"}},
+      {"image",
+       {"image", "imagename", "name", "label", "photo", "filename", "file", "query", "id"}},
       {"easting", {"easting", "x/easting", "east", "e", "x", "x0"}},
       {"northing", {"northing", "y/northing", "north", "n", "y", "y0"}},
       {"height", {"height", "z/altitude", "altitude", "h", "z", "z0"}},

@@ -150,10 +150,11 @@ std::size_t WriteColmapModel(const Dataset& dataset,
                       "#   CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n"
                       "# Number of cameras: " +
                           std::to_string(cameras.size()) + "\n" + camera_lines);
-  WriteFileAtomically(folder / "points3D.txt",
-                      "# 3D point list with one line of data per point:\n"
-                      "#   POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)\n"
-                      "# Number of points: 0\n");
+  WriteFileAtomically(
+      folder / "points3D.txt",
+      "# 3D point list with one line of data per point:\n"
+      "#   POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)\n"
+      "# Number of points: 0\n");
   WriteFileAtomically(folder / "images.txt",
                       "# Image list with two lines of data per image:\n"
                       "#   IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME\n"

@@ -25,8 +25,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kExpected =
-    "a dataset.json, a COLMAP folder (cameras.txt, images.txt), a LoD-Loc folder (intrinsic.txt), a "
-    "list of visuallocalization.net, a reconstruction.json of OpenSfM, a table with omega, phi, kappa, "
+    "a dataset.json, a COLMAP folder (cameras.txt, images.txt), a LoD-Loc folder (intrinsic.txt), "
+    "a "
+    "list of visuallocalization.net, a reconstruction.json of OpenSfM, a table with omega, phi, "
+    "kappa, "
     "or results of bench or localize (--from FORMAT tells which)";
 
 bool IsFile(const fs::path& path) {
@@ -85,7 +87,9 @@ void NameQueries(Dataset& dataset, const std::string& file) {
   for (const Query& query : dataset.queries) {
     ++stems[query.image.stem().string()];
     if (++names[query.image.generic_string()] > 1) {
-      throw InputError(file, "", "the picture " + query.image.generic_string() + " again",
+      throw InputError(file,
+                       "",
+                       "the picture " + query.image.generic_string() + " again",
                        "pictures that differ");
     }
   }
@@ -145,10 +149,11 @@ std::string FormatOfOutput(const fs::path& path) {
   if (extension == ".kml") return "kml";
   if (extension == ".tum" || extension == ".txt") return "tum";
   if (extension.empty()) return "colmap";
-  throw InputError("--out",
-                   "",
-                   path.string(),
-                   "a name ending in .json, .geojson, .kml or .tum, a folder for COLMAP, or --to FORMAT");
+  throw InputError(
+      "--out",
+      "",
+      path.string(),
+      "a name ending in .json, .geojson, .kml or .tum, a folder for COLMAP, or --to FORMAT");
 }
 
 Dataset ReadInput(const fs::path& path, const std::string& format, const ConvertOptions& options) {
@@ -202,7 +207,8 @@ std::size_t WriteOutput(const Dataset& dataset,
     return dataset.queries.size();
   }
   if (posed == 0) {
-    throw InputError(dataset.file.string(), "", "no picture with a pose", "poses to write as " + format);
+    throw InputError(
+        dataset.file.string(), "", "no picture with a pose", "poses to write as " + format);
   }
   if (format == "colmap") return WriteColmapModel(dataset, options, path);
   if (format == "geojson") WriteFileAtomically(path, PosesGeoJson(dataset));

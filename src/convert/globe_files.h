@@ -16,7 +16,8 @@ namespace ridgeline {
 // roll, east, north, height.
 std::string PosesGeoJson(const Dataset& dataset);
 
-// Placemarks with a view from the camera (OGC KML 2.3: Camera; tilt is 90 + pitch), absolute heights.
+// Placemarks with a view from the camera (OGC KML 2.3: Camera; tilt is 90 + pitch), absolute
+// heights.
 std::string PosesKml(const Dataset& dataset);
 
 }  // namespace ridgeline

@@ -29,7 +29,8 @@ struct Node {
   }
   Node Object(const std::string& key) const {
     const auto it = json.is_object() ? json.find(key) : json.end();
-    if (!json.is_object() || it == json.end() || !it->is_object()) Fail(key, "nothing", "an object");
+    if (!json.is_object() || it == json.end() || !it->is_object())
+      Fail(key, "nothing", "an object");
     return {*it, file, path.empty() ? key : path + "." + key};
   }
   bool Has(const std::string& key) const { return json.is_object() && json.contains(key); }
@@ -71,8 +72,7 @@ CameraIntrinsics CameraOf(const Node& node) {
   const double k2 = node.Number("k2", 0.0);
   if (type == "perspective") {
     camera.model = "RADIAL";
-    camera.params = {
-        node.Number("focal") * unit, 0.5 * camera.width, 0.5 * camera.height, k1, k2};
+    camera.params = {node.Number("focal") * unit, 0.5 * camera.width, 0.5 * camera.height, k1, k2};
   } else if (type == "simple_radial" || type == "radial" || type == "brown") {
     camera.params = {node.Number("focal_x") * unit,
                      node.Number("focal_y") * unit,
@@ -136,18 +136,19 @@ Dataset ReadOpenSfm(const fs::path& file, const ConvertOptions& options) {
   try {
     json = Json::parse(ReadFile(file));
   } catch (const Json::exception& e) {
-    throw InputError(name, "", std::string("text that is not JSON (") + e.what() + ")", "valid JSON");
+    throw InputError(
+        name, "", std::string("text that is not JSON (") + e.what() + ")", "valid JSON");
   }
   if (!json.is_array() || json.empty()) {
     throw InputError(name, "", json.type_name(), "a list of reconstructions [ ... ]");
   }
   const std::optional<Crs> crs = ParseCrs(options.crs);
   if (!crs) {
-    throw InputError("--crs",
-                     "",
-                     options.crs.empty() ? "nothing" : "\"" + options.crs + "\"",
-                     "a projected system such as EPSG:25832, since " + name +
-                         " has latitudes and longitudes");
+    throw InputError(
+        "--crs",
+        "",
+        options.crs.empty() ? "nothing" : "\"" + options.crs + "\"",
+        "a projected system such as EPSG:25832, since " + name + " has latitudes and longitudes");
   }
   Dataset dataset;
   dataset.name = fs::absolute(file).parent_path().filename().string();

@@ -88,7 +88,8 @@ Eigen::Quaterniond TextLine::Quaternion(std::size_t field) const {
 
 std::string TextLine::Rest(std::size_t field) const {
   if (field >= fields_.size()) {
-    Fail(std::to_string(fields_.size()) + " columns", "a name in column " + std::to_string(field + 1));
+    Fail(std::to_string(fields_.size()) + " columns",
+         "a name in column " + std::to_string(field + 1));
   }
   // Found from the back, since earlier fields may be equal.
   std::size_t at = 0;

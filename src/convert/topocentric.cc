@@ -52,8 +52,8 @@ Eigen::Vector3d Topocentric::Geodetic(const Eigen::Vector3d& east_north_up) cons
   // Fixed point of the latitude; each round gains more than two digits near the ground.
   double latitude = std::atan2(point.z(), from_axis * (1.0 - kEccentricity2));
   for (int round = 0; round < 10; ++round) {
-    latitude = std::atan2(
-        point.z() + kEccentricity2 * PrimeVertical(latitude) * std::sin(latitude), from_axis);
+    latitude = std::atan2(point.z() + kEccentricity2 * PrimeVertical(latitude) * std::sin(latitude),
+                          from_axis);
   }
   const double s = std::sin(latitude);
   const double height = from_axis * std::cos(latitude) + point.z() * s -
@@ -64,23 +64,22 @@ Eigen::Vector3d Topocentric::Geodetic(const Eigen::Vector3d& east_north_up) cons
 Pose Topocentric::ToProjected(const Pose& pose, const Crs& crs, const std::string& file) const {
   const Eigen::Vector3d place = Geodetic(pose.center_in_world);
   const auto east_north = EastNorth(crs, place.x(), place.y());
-  const auto convergence =
-      east_north ? MeridianConvergenceDeg(crs, *east_north) : std::nullopt;
+  const auto convergence = east_north ? MeridianConvergenceDeg(crs, *east_north) : std::nullopt;
   if (!convergence) {
-    throw InputError(file,
-                     "position",
-                     "latitude " + std::to_string(place.x()) + ", longitude " +
-                         std::to_string(place.y()),
-                     "a place in the reach of " + CrsName(crs));
+    throw InputError(
+        file,
+        "position",
+        "latitude " + std::to_string(place.x()) + ", longitude " + std::to_string(place.y()),
+        "a place in the reach of " + CrsName(crs));
   }
   // Grid east and north in true east and north.
   const double c = std::cos(*convergence * kRadPerDeg);
   const double s = std::sin(*convergence * kRadPerDeg);
   Eigen::Matrix3d true_from_grid;
   true_from_grid << c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0;
-  const Eigen::Matrix3d local_from_grid =
-      earth_from_local_.transpose() * AxesAt(place.x() * kRadPerDeg, place.y() * kRadPerDeg) *
-      true_from_grid;
+  const Eigen::Matrix3d local_from_grid = earth_from_local_.transpose() *
+                                          AxesAt(place.x() * kRadPerDeg, place.y() * kRadPerDeg) *
+                                          true_from_grid;
   Pose projected;
   projected.center_in_world = {east_north->x(), east_north->y(), place.z()};
   projected.cam_from_world =

@@ -12,12 +12,14 @@
 
 namespace ridgeline {
 
-// The lists of visuallocalization.net, as its benchmarks (Aachen, RobotCar, ...) and hloc have them.
+// The lists of visuallocalization.net, as its benchmarks (Aachen, RobotCar, ...) and hloc have
+// them.
 //   Queries with intrinsics: name MODEL width height params...   (COLMAP's models)
 //   Poses:                   name qw qx qy qz tx ty tz           (cam_from_world, as in COLMAP)
 // The first line of data tells which it is. Poses become truths. Throws InputError with file and
 // line.
-Dataset ReadVisualLocalizationList(const std::filesystem::path& file, const ConvertOptions& options);
+Dataset ReadVisualLocalizationList(const std::filesystem::path& file,
+                                   const ConvertOptions& options);
 
 // The poses of a list by picture name.
 std::vector<std::pair<std::string, Pose>> ReadPoseList(const std::filesystem::path& file,

@@ -56,9 +56,8 @@ double GridHeading(const PictureFacts& facts,
       declination = *options.declination_deg;
       words += Format(", declination %.1f as given", declination);
     } else {
-      declination = MagneticDeclinationDeg(facts.place->latitude_deg,
-                                           facts.place->longitude_deg,
-                                           facts.year.value_or(kUnknownYear));
+      declination = MagneticDeclinationDeg(
+          facts.place->latitude_deg, facts.place->longitude_deg, facts.year.value_or(kUnknownYear));
       words += Format(", declination %.1f by the World Magnetic Model%s",
                       declination,
                       facts.year ? "" : " for 2025, the date being unknown");
@@ -124,27 +123,27 @@ std::optional<PosePrior> PriorOf(const PictureFacts& facts,
                                  PictureInput& input) {
   if (!facts.place) return std::nullopt;
   if (crs.horizontal_epsg == 0) {
-    throw InputError("--crs",
-                     "",
-                     "nothing, and a model that names no reference system",
-                     "the model's system, such as EPSG:25832, so that the latitude and longitude of " +
-                         file + " can be placed in it (or --prior FILE)");
+    throw InputError(
+        "--crs",
+        "",
+        "nothing, and a model that names no reference system",
+        "the model's system, such as EPSG:25832, so that the latitude and longitude of " + file +
+            " can be placed in it (or --prior FILE)");
   }
   const auto place = EastNorth(crs, facts.place->latitude_deg, facts.place->longitude_deg);
   if (!place) {
-    throw InputError(file,
-                     "position",
-                     Format("latitude %.6f, longitude %.6f",
-                            facts.place->latitude_deg,
-                            facts.place->longitude_deg),
-                     "a place in the reach of " + CrsName(crs) + " (--prior FILE gives another)");
+    throw InputError(
+        file,
+        "position",
+        Format(
+            "latitude %.6f, longitude %.6f", facts.place->latitude_deg, facts.place->longitude_deg),
+        "a place in the reach of " + CrsName(crs) + " (--prior FILE gives another)");
   }
   PosePrior prior;
   prior.position_in_world = *place;
   input.horizontal_m = kReceiverErrorM;
   if (facts.horizontal_error_m) {
-    input.horizontal_m =
-        std::clamp(2.0 * *facts.horizontal_error_m, kReceiverErrorM, kMostErrorM);
+    input.horizontal_m = std::clamp(2.0 * *facts.horizontal_error_m, kReceiverErrorM, kMostErrorM);
   }
   input.notes.push_back(Format("position: %.6f, %.6f (%s) = %.1f east, %.1f north",
                                facts.place->latitude_deg,

@@ -35,9 +35,9 @@ struct PictureInput {
 };
 
 // Camera and prior that a query lacks, from its picture's EXIF and XMP. Directions are turned from
-// true or magnetic north to grid north. Heights: above take-off, where the picture says it (drones),
-// over the terrain at its place; else the terrain + camera height, since a receiver's height is off
-// by tens of metres; else, without a terrain model, the altitude as it is.
+// true or magnetic north to grid north. Heights: above take-off, where the picture says it
+// (drones), over the terrain at its place; else the terrain + camera height, since a receiver's
+// height is off by tens of metres; else, without a terrain model, the altitude as it is.
 //
 // @param crs  Projected system of the model.
 // Throws InputError for a picture that cannot be read or does not lie in the system's reach.

@@ -54,7 +54,8 @@ cv::Mat ReadPicture(const std::filesystem::path& path) {
     picture = cv::imdecode(view, cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
   }
   if (picture.empty()) {
-    throw InputError(path.string(), "", "a file that does not decode", "a picture (JPEG, PNG, TIFF)");
+    throw InputError(
+        path.string(), "", "a file that does not decode", "a picture (JPEG, PNG, TIFF)");
   }
   if (picture.depth() != CV_8U && picture.depth() != CV_16U) {
     throw InputError(path.string(), "", "pixels of another type", "8 or 16 bit integers");
@@ -64,17 +65,16 @@ cv::Mat ReadPicture(const std::filesystem::path& path) {
 
 cv::Mat ReadPicture(const Query& query) {
   cv::Mat picture = TurnedUpright(ReadPicture(query.image), query.orientation);
-  const bool fits = !query.camera || (picture.cols == query.camera->width &&
-                                      picture.rows == query.camera->height);
+  const bool fits = !query.camera ||
+                    (picture.cols == query.camera->width && picture.rows == query.camera->height);
   if (fits) return picture;
-  const bool turned =
-      picture.cols == query.camera->height && picture.rows == query.camera->width;
-  throw InputError(query.image.string(),
-                   "size",
-                   SizeText(picture.cols, picture.rows),
-                   "the camera's " + SizeText(query.camera->width, query.camera->height) +
-                       (turned ? " (pictures are taken as they are stored, not as EXIF turns them)"
-                               : ""));
+  const bool turned = picture.cols == query.camera->height && picture.rows == query.camera->width;
+  throw InputError(
+      query.image.string(),
+      "size",
+      SizeText(picture.cols, picture.rows),
+      "the camera's " + SizeText(query.camera->width, query.camera->height) +
+          (turned ? " (pictures are taken as they are stored, not as EXIF turns them)" : ""));
 }
 
 }  // namespace ridgeline

@@ -24,9 +24,8 @@ TEST(MagneticDeclination, EqualsThePublishedTestValues) {
       {2027.5, -80.0, 240.0, 68.49},
   };
   for (const Published& p : kPublished) {
-    EXPECT_NEAR(MagneticDeclinationDeg(p.latitude_deg, p.longitude_deg, p.year),
-                p.declination_deg,
-                0.0051)
+    EXPECT_NEAR(
+        MagneticDeclinationDeg(p.latitude_deg, p.longitude_deg, p.year), p.declination_deg, 0.0051)
         << p.year << " " << p.latitude_deg;
   }
 }

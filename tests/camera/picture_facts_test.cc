@@ -48,18 +48,21 @@ PictureFacts FactsOfXmp(const std::string& xmp) { return FactsOf({}, ParseXmp(xm
 std::string Packet(const std::string& attributes) {
   return "<?xpacket begin=\"\xEF\xBB\xBF\" id=\"W5M0MpCehiHzreSzNTczkc9d\"?>\n"
          "<x:xmpmeta xmlns:x=\"adobe:ns:meta/\"><rdf:RDF "
-         "xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\"><rdf:Description rdf:about=\"\" " +
+         "xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\"><rdf:Description "
+         "rdf:about=\"\" " +
          attributes + "></rdf:Description></rdf:RDF></x:xmpmeta>\n<?xpacket end=\"w\"?>";
 }
 
 // As a DJI aircraft writes it: signs before all numbers, the longitude's name misspelt.
 std::string Dji(const std::string& yaw, const std::string& pitch, const std::string& roll) {
-  return Packet("xmlns:drone-dji=\"http://www.dji.com/drone-dji/1.0/\" "
-                "drone-dji:AbsoluteAltitude=\"+556.27\" drone-dji:RelativeAltitude=\"+38.10\" "
-                "drone-dji:GpsLatitude=\"48.148912\" drone-dji:GpsLongtitude=\"11.567891\" "
-                "drone-dji:GimbalRollDegree=\"" + roll + "\" drone-dji:GimbalYawDegree=\"" + yaw +
-                "\" drone-dji:GimbalPitchDegree=\"" + pitch + "\" "
-                "drone-dji:FlightYawDegree=\"-160.00\" drone-dji:CamReverse=\"0\"");
+  return Packet(
+      "xmlns:drone-dji=\"http://www.dji.com/drone-dji/1.0/\" "
+      "drone-dji:AbsoluteAltitude=\"+556.27\" drone-dji:RelativeAltitude=\"+38.10\" "
+      "drone-dji:GpsLatitude=\"48.148912\" drone-dji:GpsLongtitude=\"11.567891\" "
+      "drone-dji:GimbalRollDegree=\"" +
+      roll + "\" drone-dji:GimbalYawDegree=\"" + yaw + "\" drone-dji:GimbalPitchDegree=\"" + pitch +
+      "\" "
+      "drone-dji:FlightYawDegree=\"-160.00\" drone-dji:CamReverse=\"0\"");
 }
 
 std::string Pix4d(double yaw, double pitch, double roll) {
@@ -94,7 +97,8 @@ TEST(PictureFacts, ReadsAPhonesExifInBothByteOrders) {
   }
 }
 
-// Some programs write degrees with all their decimals, and nothing else: six digits would be metres.
+// Some programs write degrees with all their decimals, and nothing else: six digits would be
+// metres.
 TEST(PictureFacts, KeepsTheDigitsOfDecimalDegrees) {
   ExifWriter exif;
   exif.Text(Directory::kGps, 1, "S")
@@ -207,10 +211,10 @@ TEST(PictureFacts, DjisPitchPlus90IsPix4ds) {
 }
 
 TEST(PictureFacts, ReadsGooglesHeading) {
-  const PictureFacts facts = FactsOfXmp(
-      Packet("xmlns:GPano=\"http://ns.google.com/photos/1.0/panorama/\" "
-             "GPano:PoseHeadingDegrees=\"350.5\" GPano:PosePitchDegrees=\"2\" "
-             "GPano:PoseRollDegrees=\"-1\""));
+  const PictureFacts facts =
+      FactsOfXmp(Packet("xmlns:GPano=\"http://ns.google.com/photos/1.0/panorama/\" "
+                        "GPano:PoseHeadingDegrees=\"350.5\" GPano:PosePitchDegrees=\"2\" "
+                        "GPano:PoseRollDegrees=\"-1\""));
   EXPECT_DOUBLE_EQ(facts.direction->heading_deg, 350.5);
   EXPECT_DOUBLE_EQ(facts.direction->pitch_deg.value(), 2.0);
   EXPECT_DOUBLE_EQ(facts.direction->roll_deg.value(), -1.0);
@@ -246,7 +250,8 @@ TEST_F(PictureFile, FindsItsBlocksInJpegPngAndTiff) {
   const std::string exif = Phone().Block();
   const std::string xmp = Dji("+10.00", "-20.00", "+0.00");
   const std::string scan = "\xff\xda rest";
-  EXPECT_NEAR(Read(testing::JpegWith("\xff\xd8" + scan, exif, xmp)).direction->heading_deg, 10, 1e-9);
+  EXPECT_NEAR(
+      Read(testing::JpegWith("\xff\xd8" + scan, exif, xmp)).direction->heading_deg, 10, 1e-9);
   EXPECT_EQ(Read(testing::JpegWith("\xff\xd8" + scan, exif, "")).camera, "iPhone 12");
   EXPECT_EQ(Read(testing::JpegWith("\xff\xd8" + scan, "", "")).camera, "");
   EXPECT_EQ(Read(exif).camera, "iPhone 12");
@@ -255,9 +260,9 @@ TEST_F(PictureFile, FindsItsBlocksInJpegPngAndTiff) {
     for (std::size_t i = 0; i < 4; ++i) size[3 - i] = static_cast<char>(body.size() >> (8 * i));
     return size + type + body + "crc_";
   };
-  const std::string png =
-      "\x89PNG\r\n\x1a\n" + chunk("eXIf", exif) +
-      chunk("iTXt", std::string("XML:com.adobe.xmp\0\0\0\0\0", 22) + xmp) + chunk("IEND", "");
+  const std::string png = "\x89PNG\r\n\x1a\n" + chunk("eXIf", exif) +
+                          chunk("iTXt", std::string("XML:com.adobe.xmp\0\0\0\0\0", 22) + xmp) +
+                          chunk("IEND", "");
   EXPECT_EQ(Read(png).camera, "iPhone 12");
   EXPECT_NEAR(Read(png).direction->heading_deg, 10, 1e-9);
   for (std::size_t size = 0; size < png.size(); size += 5) Read(png.substr(0, size));
@@ -317,8 +322,8 @@ TEST(PictureCamera, OtherSourcesOfTheFocalLength) {
   EXPECT_EQ(CameraOf(facts, 5472, 3648).camera.params[0], 3666.666);
 }
 
-// What each orientation does to the stored corner, from the EXIF standard's table: orientation 6 has
-// its first row on the right and its first column at the top.
+// What each orientation does to the stored corner, from the EXIF standard's table: orientation 6
+// has its first row on the right and its first column at the top.
 TEST(TurnedUpright, PutsTheStoredRowsWhereTheStandardSays) {
   cv::Mat stored(2, 3, CV_8U);
   for (int i = 0; i < 6; ++i) stored.data[i] = static_cast<unsigned char>(i);

@@ -159,9 +159,10 @@ TEST_F(Colmap, BadInputNamesFileAndLine) {
             "NAME");
   EXPECT_EQ(error(kCameras, "1 1 0 0 0 0 0 nan 1 a.jpg\n\n"),
             "images.txt: line 1: got \"nan\", expected a number for TZ");
-  EXPECT_EQ(error(kCameras, "1 1 1 0 0 0 0 0 1 a.jpg\n\n"),
-            "images.txt: line 1: got a quaternion of norm 1.414214, expected a unit quaternion qw qx "
-            "qy qz");
+  EXPECT_EQ(
+      error(kCameras, "1 1 1 0 0 0 0 0 1 a.jpg\n\n"),
+      "images.txt: line 1: got a quaternion of norm 1.414214, expected a unit quaternion qw qx "
+      "qy qz");
   // A model whose empty lines were removed: the second picture would be taken for points.
   EXPECT_THAT(error(kCameras, "1 1 0 0 0 0 0 0 1 a.jpg\n2 1 0 0 0 0 0 0 1 b.jpg\n"),
               HasSubstr("images.txt: line 2: got 10 columns, expected the points of the picture "

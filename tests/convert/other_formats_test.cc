@@ -64,7 +64,8 @@ TEST_F(Convert, LodLocsOwnDemo) {
 // Lists in the form of the Aachen Day-Night benchmark: a query's name has a folder, a result's not.
 TEST_F(Convert, VisualLocalizationLists) {
   Write("queries.txt",
-        "query/night/nexus5x/IMG_20161227_160713.jpg SIMPLE_RADIAL 1600 1200 1469.2 800 600 -0.0353\n");
+        "query/night/nexus5x/IMG_20161227_160713.jpg SIMPLE_RADIAL 1600 1200 1469.2 800 600 "
+        "-0.0353\n");
   Write("poses.txt", "IMG_20161227_160713.jpg 0.5 0.5 -0.5 0.5 1 2 3\n");
   Dataset dataset = ReadInput(folder_ / "queries.txt", "", {});
   EXPECT_FALSE(dataset.queries[0].truth.has_value());
@@ -175,13 +176,15 @@ TEST_F(Convert, BadReconstructionsNameThePlace) {
   EXPECT_EQ(error(good), "");
   EXPECT_THAT(error(good, ""), HasSubstr("--crs: got nothing, expected a projected system"));
   for (std::size_t tenth = 1; tenth < 10; ++tenth) {
-    EXPECT_THAT(error(good.substr(0, good.size() * tenth / 10)), HasSubstr("r.json: got text that"));
+    EXPECT_THAT(error(good.substr(0, good.size() * tenth / 10)),
+                HasSubstr("r.json: got text that"));
   }
   EXPECT_THAT(error("{}"), HasSubstr("r.json: got object, expected a list of reconstructions"));
   EXPECT_THAT(error("[{\"cameras\": {}, \"shots\": {}}]"),
               HasSubstr("r.json: [0].reference_lla: got nothing"));
-  EXPECT_THAT(error(Reconstruction("\"projection_type\": \"fisheye\", \"width\": 9, \"height\": 9", shot)),
-              HasSubstr("r.json: [0].cameras.v2 dji.projection_type: got \"fisheye\""));
+  EXPECT_THAT(
+      error(Reconstruction("\"projection_type\": \"fisheye\", \"width\": 9, \"height\": 9", shot)),
+      HasSubstr("r.json: [0].cameras.v2 dji.projection_type: got \"fisheye\""));
   EXPECT_EQ(error(Reconstruction(kPerspective, "\"rotation\": [0, 1]")),
             "r.json: [0].shots.IMG_1.JPG.rotation: got [0,1], expected three numbers");
   EXPECT_THAT(error(good, "EPSG:4326"), HasSubstr("a place in the reach of EPSG:4326"));
@@ -202,7 +205,8 @@ TEST_F(Convert, TablesOfOmegaPhiKappa) {
   EXPECT_NEAR(level.pitch_deg, 0.0, 1e-12);
   EXPECT_EQ(a.queries[1].image, "IMG 2.JPG");
   EXPECT_NEAR(ViewAnglesOf(a.queries[1].truth->cam_from_world).pitch_deg, -90.0, 1e-12);
-  Write("pix4d.txt", "imageName X Y Z Omega Phi Kappa\nIMG_1.JPG 691000.5 5336000.25 520.125 90 0 -45\n");
+  Write("pix4d.txt",
+        "imageName X Y Z Omega Phi Kappa\nIMG_1.JPG 691000.5 5336000.25 520.125 90 0 -45\n");
   const Dataset b = ReadInput(folder_ / "pix4d.txt", "", {});
   EXPECT_EQ(b.queries[0].truth->cam_from_world.coeffs(),
             a.queries[0].truth->cam_from_world.coeffs());
@@ -217,9 +221,10 @@ TEST_F(Convert, BadTablesNameFileAndLine) {
     Write("t.csv", text);
     return Message([&] { ReadAngleTable(folder_ / "t.csv", {}); });
   };
-  EXPECT_EQ(error("image,e,n,h,omega,phi\na,1,2,3,4,5\n"),
-            "t.csv: line 1: got no column kappa, expected columns image, easting, northing, height, "
-            "omega, phi, kappa");
+  EXPECT_EQ(
+      error("image,e,n,h,omega,phi\na,1,2,3,4,5\n"),
+      "t.csv: line 1: got no column kappa, expected columns image, easting, northing, height, "
+      "omega, phi, kappa");
   EXPECT_EQ(error("image,e,n,h,omega,phi,kappa\na,1,2,3,4,5\n"),
             "t.csv: line 2: got 6 columns, expected a number for kappa");
   EXPECT_EQ(error("image,e,n,h,omega,phi,kappa\na,1,2,3,4,5,6\nb,1,2,,4,5,6\n"),
@@ -237,7 +242,8 @@ Dataset OnePose() {
   Query query;
   query.id = "000";
   query.image = "images/000.jpg";
-  query.truth = Pose{CamFromWorld(ViewAngles{45.0, 10.0, 3.0}), {690994.2687, 5336040.5004, 517.25}};
+  query.truth =
+      Pose{CamFromWorld(ViewAngles{45.0, 10.0, 3.0}), {690994.2687, 5336040.5004, 517.25}};
   dataset.queries.push_back(query);
   return dataset;
 }
@@ -294,13 +300,15 @@ TEST_F(Convert, ResultsOfBenchAndLocalize) {
   const Dataset bench = ReadInput(folder_ / "results.csv", "", {});
   ASSERT_EQ(bench.queries.size(), 1u);
   EXPECT_EQ(bench.queries[0].truth->center_in_world.x(), 691000.5);
-  // The same pose as bench's poses.txt has it: t = -R (c - origin), R = [[0,-1,0],[0,0,-1],[1,0,0]].
+  // The same pose as bench's poses.txt has it: t = -R (c - origin), R =
+  // [[0,-1,0],[0,0,-1],[1,0,0]].
   Write("poses.txt",
         "# origin 691000.0 5336000.0 500.0 (east north height)\n# query seed qw qx qy qz tx ty tz\n"
         "000 1 0.5 0.5 -0.5 0.5 0.25 20.125 -0.5\n");
   const Dataset poses = ReadInput(folder_ / "poses.txt", "", {});
-  EXPECT_LT((poses.queries[0].truth->center_in_world - bench.queries[0].truth->center_in_world).norm(),
-            1e-8);
+  EXPECT_LT(
+      (poses.queries[0].truth->center_in_world - bench.queries[0].truth->center_in_world).norm(),
+      1e-8);
   Write("pose.json",
         "{\"picture\": \"a/000.jpg\", \"status\": \"ok\", \"crs\": \"EPSG:25832\", \"pose\": "
         "{\"position\": [691000.5, 5336000.25, 520.125], \"cam_from_world_wxyz\": [0.5, 0.5, -0.5, "
@@ -310,8 +318,9 @@ TEST_F(Convert, ResultsOfBenchAndLocalize) {
   EXPECT_EQ(pose.queries[0].id, "000");
   EXPECT_EQ(pose.queries[0].truth->center_in_world, bench.queries[0].truth->center_in_world);
   Write("none.json", "{\"status\": \"abstained\"}");
-  EXPECT_THAT(Message([&] { ReadInput(folder_ / "none.json", "", {}); }),
-              HasSubstr("none.json: pose: got nothing usable, expected a pose; this run abstained"));
+  EXPECT_THAT(
+      Message([&] { ReadInput(folder_ / "none.json", "", {}); }),
+      HasSubstr("none.json: pose: got nothing usable, expected a pose; this run abstained"));
 }
 
 TEST_F(Convert, FormatsAreFoundOutOrAskedFor) {

@@ -79,9 +79,8 @@ TEST(PicturePrior, MagneticNorthIsTurnedByTheDeclination) {
   EXPECT_THAT(input.notes, Contains(HasSubstr("World Magnetic Model")));
   PictureInputOptions options;
   options.declination_deg = 4.0;
-  EXPECT_NEAR(PriorFor(facts, 515.0, input, options).heading_deg.value(),
-              112.0 + 4.0 - kConvergence,
-              1e-4);
+  EXPECT_NEAR(
+      PriorFor(facts, 515.0, input, options).heading_deg.value(), 112.0 + 4.0 - kConvergence, 1e-4);
 }
 
 TEST(PicturePrior, HeightsInTheirOrderOfTrust) {
@@ -138,16 +137,15 @@ class PictureOnItsSide : public ::testing::Test {
         .Ratios(Directory::kGps, 2, {{48148912, 1000000}, {0, 1}, {0, 1}})
         .Text(Directory::kGps, 3, "E")
         .Ratios(Directory::kGps, 4, {{11567891, 1000000}, {0, 1}, {0, 1}});
-    WriteFileAtomically(
-        path_, testing::JpegWith(std::string(jpeg.begin(), jpeg.end()), exif.Block(), ""));
+    WriteFileAtomically(path_,
+                        testing::JpegWith(std::string(jpeg.begin(), jpeg.end()), exif.Block(), ""));
     query_.id = "side";
     query_.image = path_;
   }
   ~PictureOnItsSide() override { std::filesystem::remove(path_); }
 
-  std::filesystem::path path_ =
-      std::filesystem::path(::testing::TempDir()) /
-      ("ridgeline_picture_input_" + std::to_string(::getpid()) + ".jpg");
+  std::filesystem::path path_ = std::filesystem::path(::testing::TempDir()) /
+                                ("ridgeline_picture_input_" + std::to_string(::getpid()) + ".jpg");
   Query query_;
 };
 

@@ -34,7 +34,8 @@ class ExifWriter {
 
   // The TIFF structure.
   std::string Block() const {
-    const std::string head = (big_ ? std::string("MM\0*", 4) : std::string("II*\0", 4)) + Bytes(8, 4);
+    const std::string head =
+        (big_ ? std::string("MM\0*", 4) : std::string("II*\0", 4)) + Bytes(8, 4);
     std::vector<Item> image = items_[0];
     image.push_back({0x8769, 4, 1, Bytes(0, 4)});
     image.push_back({0x8825, 4, 1, Bytes(0, 4)});
