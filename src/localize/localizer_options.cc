@@ -15,9 +15,13 @@ void RequirePositive(const char* field, double value) {
 }  // namespace
 
 const std::vector<std::string>& ScoreNames() {
-  static const std::vector<std::string> names = {
-      "evidence",   "line_energy",      "line_energy_zbuffer", "skyline_l1",
-      "gradient",   "oriented_chamfer", "regions",             "unexplained"};
+  static const std::vector<std::string> names = {"evidence",
+                                                 "line_energy",
+                                                 "line_energy_zbuffer",
+                                                 "skyline_l1",
+                                                 "gradient",
+                                                 "oriented_chamfer",
+                                                 "unexplained"};
   return names;
 }
 
@@ -28,7 +32,6 @@ void ScoreOptions::Visit(OptionVisitor& v) {
   v.Group("line_energy", [this](OptionVisitor& g) { line_energy.Visit(g); });
   v.Group("oriented_chamfer", [this](OptionVisitor& g) { oriented_chamfer.Visit(g); });
   v.Group("gradient", [this](OptionVisitor& g) { gradient.Visit(g); });
-  v.Group("regions", [this](OptionVisitor& g) { regions.Visit(g); });
   v.Group("unexplained", [this](OptionVisitor& g) { unexplained.Visit(g); });
   v.Group("zbuffer_hough", [this](OptionVisitor& g) { zbuffer_hough.Visit(g); });
   v.Group("skyline", [this](OptionVisitor& g) { skyline.Visit(g); });
@@ -43,7 +46,9 @@ void ScoreOptions::Validate() const {
     throw InputError("", "score.name", "\"" + name + "\"", "one of " + known);
   }
   if (weights.size() != kCues) {
-    throw InputError("", "score.weights", std::to_string(weights.size()) + " numbers",
+    throw InputError("",
+                     "score.weights",
+                     std::to_string(weights.size()) + " numbers",
                      std::to_string(kCues) + ", one per cue");
   }
   for (const double weight : weights) {
@@ -53,7 +58,6 @@ void ScoreOptions::Validate() const {
   line_energy.Validate();
   oriented_chamfer.Validate();
   gradient.Validate();
-  regions.Validate();
   unexplained.Validate();
   zbuffer_hough.Validate();
   skyline.Validate();

@@ -15,7 +15,6 @@
 #include "score/line_energy.h"
 #include "score/oriented_chamfer_score.h"
 #include "score/picture_evidence.h"
-#include "score/region_score.h"
 #include "score/skyline_l1.h"
 #include "score/unexplained_score.h"
 #include "skyline/skyline_extractor.h"
@@ -28,16 +27,15 @@ const std::vector<std::string>& ScoreNames();
 struct ScoreOptions {
   // "evidence": ours. "line_energy": Loeper et al. on visible edges; "line_energy_zbuffer": the same
   // on edges from a z-buffer, as in the paper. "skyline_l1": Ayadi et al. Contenders of ours, each a
-  // single cue: "oriented_chamfer", "gradient", "regions", "unexplained".
+  // single cue: "oriented_chamfer", "gradient", "unexplained".
   std::string name = "evidence";
   // Weights of the cues, in the order of kCueNames: the maximum likelihood of the dev queries
   // (docs/scores.md has the command).
-  std::vector<double> weights = {0.14, 0.04, 0.02, 0.2, 0.3, 6.0, 0.85};
+  std::vector<double> weights = {0.17, 0.056, 0.029, 0.08, 0.26, 5.6, 1.2, 53.0};
   EvidenceOptions evidence;
   LineEnergyOptions line_energy;
   OrientedChamferOptions oriented_chamfer;
   GradientScoreOptions gradient;
-  RegionScoreOptions regions;
   UnexplainedScoreOptions unexplained;
   ZbufferHoughOptions zbuffer_hough;
   SkylineOptions skyline;

@@ -5,7 +5,6 @@
 #include "score/gradient_score.h"
 #include "score/line_energy_score.h"
 #include "score/oriented_chamfer_score.h"
-#include "score/region_score.h"
 #include "score/skyline_l1_score.h"
 #include "score/unexplained_score.h"
 #include "score/zbuffer_line_energy_score.h"
@@ -38,9 +37,6 @@ std::unique_ptr<Score> MakeScore(const ScoreOptions& options,
   }
   if (options.name == "gradient") {
     return std::make_unique<GradientScore>(bgr, evidence.camera(), options.gradient);
-  }
-  if (options.name == "regions") {
-    return std::make_unique<RegionScore>(bgr, evidence.camera(), scene.model(), options.regions);
   }
   if (options.name == "unexplained") {
     return std::make_unique<UnexplainedScore>(

@@ -50,6 +50,7 @@ void EvidenceOptions::Validate() const {
   lines.Validate();
   sky.Validate();
   facades.Validate();
+  regions.Validate();
 }
 
 PictureEvidence::PictureEvidence(const cv::Mat& bgr,
@@ -78,6 +79,7 @@ PictureEvidence::PictureEvidence(const cv::Mat& reduced,
       field_(segments_, work.width, work.height, threads),
       line_options_(options.lines),
       facades_(segments_, camera_, options.facades),
+      regions_(reduced, camera_, options.regions),
       sky_(SkyLogOdds(reduced, SkyLikelihoodOptions{}), options.sky),
       sky_camera_(camera_.Scaled(static_cast<double>(sky_.columns()) / camera_.width)) {}
 
@@ -102,6 +104,8 @@ CueVector PictureEvidence::Cues(const PositionView& view,
   cues[kSkyCue] = static_cast<float>(SkyLogRatio(sky_, workspace.skyline_rows));
   if (!view.surfaces.surfaces.empty()) {
     cues[kFacadeCue] = facades_.LogRatio(view.surfaces, model, rotation);
+    cues[kRegionCue] =
+        static_cast<float>(regions_.Share(view.surfaces, model, rotation, workspace.labels));
   }
   return cues;
 }

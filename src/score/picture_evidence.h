@@ -13,6 +13,7 @@
 #include "score/line_likelihood.h"
 #include "score/oriented_distance_field.h"
 #include "score/position_view.h"
+#include "score/region_information.h"
 #include "score/sky_table.h"
 #include "skyline/sky_likelihood.h"
 
@@ -24,6 +25,7 @@ struct EvidenceOptions {
   LineLikelihoodOptions lines;
   SkyTableOptions sky;
   FacadeDirectionOptions facades;
+  RegionOptions regions;
   // Resolution of the surfaces seen from a position [deg].
   double surface_step_deg = 1.0;
 
@@ -32,6 +34,7 @@ struct EvidenceOptions {
     v.Group("lines", [this](OptionVisitor& g) { lines.Visit(g); });
     v.Group("sky", [this](OptionVisitor& g) { sky.Visit(g); });
     v.Group("facades", [this](OptionVisitor& g) { facades.Visit(g); });
+    v.Group("regions", [this](OptionVisitor& g) { regions.Visit(g); });
     v.Field("surface_step_deg", surface_step_deg);
   }
   void Validate() const;
@@ -41,10 +44,11 @@ struct EvidenceOptions {
 // factor (its samples are correlated). The first five are the kinds of edges, in their order.
 inline constexpr int kSkyCue = kEdgeKinds;
 inline constexpr int kFacadeCue = kEdgeKinds + 1;
-inline constexpr int kCues = kEdgeKinds + 2;
+inline constexpr int kRegionCue = kEdgeKinds + 2;
+inline constexpr int kCues = kEdgeKinds + 3;
 using CueVector = std::array<float, kCues>;
 inline constexpr std::array<const char*, kCues> kCueNames = {
-    "skyline_edges", "occlusions", "folds", "ground_lines", "seams", "sky", "facades"};
+    "skyline_edges", "occlusions", "folds", "ground_lines", "seams", "sky", "facades", "regions"};
 
 // What a picture says, prepared so that a pose costs microseconds.
 class PictureEvidence {
@@ -99,6 +103,7 @@ class PictureEvidence {
   OrientedDistanceField field_;
   LineLikelihoodOptions line_options_;
   FacadeDirections facades_;
+  RegionInformation regions_;
   SkyTable sky_;
   PinholeCamera sky_camera_;
 };

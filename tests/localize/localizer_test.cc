@@ -171,7 +171,7 @@ TEST_F(LocalizerOnAStreet, BadInputIsNamed) {
 
 TEST_F(LocalizerOnAStreet, EverySamplerAndScoreRuns) {
   for (const char* score : {"line_energy", "skyline_l1", "line_energy_zbuffer", "oriented_chamfer",
-                            "gradient", "regions", "unexplained"}) {
+                            "gradient", "unexplained"}) {
     LocalizerOptions options = Options();
     options.score.name = score;
     options.search.method = "sampler";

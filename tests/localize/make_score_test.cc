@@ -133,7 +133,6 @@ INSTANTIATE_TEST_SUITE_P(Names,
                                            "skyline_l1",
                                            "oriented_chamfer",
                                            "gradient",
-                                           "regions",
                                            "unexplained"),
                          [](const auto& test) { return std::string(test.param); });
 

@@ -8,7 +8,7 @@
 
 #include "score/gradient_score.h"
 #include "score/oriented_chamfer_score.h"
-#include "score/region_score.h"
+#include "score/region_information.h"
 #include "score/unexplained_score.h"
 
 namespace ridgeline {
@@ -152,15 +152,19 @@ TEST(GradientScore, AFlatPictureHasEnergyOne) {
   EXPECT_STREQ(score.unusable(), "the picture has no gradients");
 }
 
-// Regions of a grid: sky above `horizon` rows, a building in the columns [first, last), ground below.
-std::vector<std::uint8_t> Regions(const RegionScore& score, int horizon, int first, int last) {
+// Regions of a grid: sky above `horizon` rows, a building in the columns [first, last), ground
+// below.
+std::vector<std::uint8_t> Regions(const RegionInformation& score,
+                                  int horizon,
+                                  int first,
+                                  int last) {
   std::vector<std::uint8_t> regions;
   for (int y = 0; y < score.camera().height; ++y) {
     for (int x = 0; x < score.camera().width; ++x) {
       const bool is_building = x >= first && x < last && y >= 8 && y < horizon;
-      regions.push_back(is_building      ? RegionScore::kBuilding
-                        : y < horizon ? RegionScore::kSky
-                                      : RegionScore::kGround);
+      regions.push_back(is_building   ? RegionInformation::kBuilding
+                        : y < horizon ? RegionInformation::kSky
+                                      : RegionInformation::kGround);
     }
   }
   return regions;
@@ -177,12 +181,12 @@ class RegionsOfAPicture : public ::testing::Test {
   }
 
   double EnergyOf(const cv::Mat& picture, int horizon, int first, int last) const {
-    const RegionScore score(picture, camera_, model_, {});
-    return score.EnergyOfRegions(Regions(score, horizon, first, last));
+    const RegionInformation information(picture, camera_, kGrid);
+    return 1.0 - information.Share(Regions(information, horizon, first, last));
   }
 
+  static constexpr RegionOptions kGrid{64};
   PinholeCamera camera_{640, 480, 600.0, 600.0, 320.0, 240.0};
-  CityModel model_;
   cv::Mat picture_ = Picture({240, 200, 160}, {60, 110, 150}, {90, 90, 90});
 };
 
@@ -216,12 +220,11 @@ TEST_F(RegionsOfAPicture, BrightnessAndContrastDoNotMatter) {
 TEST_F(RegionsOfAPicture, WithoutColoursOrBuildingsTheEnergyIsOne) {
   const cv::Mat black = cv::Mat::zeros(480, 640, CV_8UC3);
   EXPECT_EQ(EnergyOf(black, 32, 20, 44), 1.0);
-  EXPECT_STREQ(RegionScore(black, camera_, model_, {}).unusable(),
-               "the picture has one colour only");
+  EXPECT_FALSE(RegionInformation(black, camera_, kGrid).has_colours());
   EXPECT_EQ(EnergyOf(picture_, 32, 0, 0), 1.0);  // no building in view
-  const RegionScore score(picture_, camera_, model_, {});
-  const std::vector<std::uint8_t> unknown(64 * 48, RegionScore::kRegions);
-  EXPECT_EQ(score.EnergyOfRegions(unknown), 1.0);
+  const RegionInformation information(picture_, camera_, kGrid);
+  const std::vector<std::uint8_t> unknown(64 * 48, RegionInformation::kRegions);
+  EXPECT_EQ(information.Share(unknown), 0.0);
 }
 
 TEST_F(RegionsOfAPicture, NoiseAloneIsNearOne) {
@@ -260,7 +263,8 @@ TEST(UnexplainedScore, LinesBesideAnOutlineThatItDoesNotExplainCost) {
   const UnexplainedScore score(lines, field, kCamera, {});
   const auto shares = score.SharesOf(HouseEdges(0, 0), kOutline);
   EXPECT_NEAR(shares.lines, 500.0 / 525.0, 1e-6);
-  EXPECT_NEAR(shares.Energy(), 1.0 - 2.0 * shares.edges * shares.lines / (shares.edges + shares.lines),
+  EXPECT_NEAR(shares.Energy(),
+              1.0 - 2.0 * shares.edges * shares.lines / (shares.edges + shares.lines),
               1e-12);
   // A fold is no outline: nothing near it needs to be explained.
   EXPECT_EQ(score.SharesOf(HouseEdges(0, 0), std::vector{EdgeKind::kFold}).lines, 0.0);

@@ -130,7 +130,7 @@ TEST_F(Study, ACueIsTheEvidenceWithItsWeightAlone) {
   const auto choices = ChooseScores({"sky", "line_energy", "sky"}, {});
   ASSERT_EQ(choices.size(), 2u);
   EXPECT_EQ(choices[0].options.name, "evidence");
-  EXPECT_EQ(choices[0].options.weights, (std::vector<double>{0, 0, 0, 0, 0, 1, 0}));
+  EXPECT_EQ(choices[0].options.weights, (std::vector<double>{0, 0, 0, 0, 0, 1, 0, 0}));
   EXPECT_EQ(choices[1].options.name, "line_energy");
 }
 

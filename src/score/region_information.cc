@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "score/region_score.h"
+#include "score/region_information.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <opencv2/imgproc.hpp>
@@ -25,28 +24,28 @@ std::vector<int> RankBins(const std::vector<float>& values, int bins) {
   return result;
 }
 
-RegionScore::Region RegionOf(std::uint32_t surface, bool is_upward, const CityModel& model) {
+RegionInformation::Region RegionOf(std::uint32_t surface, bool is_upward, const CityModel& model) {
   // Beyond the model and the terrain the ground goes on to the horizon.
-  if (surface == kNoSurface) return is_upward ? RegionScore::kSky : RegionScore::kGround;
-  if (surface == kTerrainSurface) return RegionScore::kGround;
+  if (surface == kNoSurface)
+    return is_upward ? RegionInformation::kSky : RegionInformation::kGround;
+  if (surface == kTerrainSurface) return RegionInformation::kGround;
   const SurfaceClass surface_class = model.surfaces[surface].surface_class;
   return surface_class == SurfaceClass::kGround || surface_class == SurfaceClass::kTerrain
-             ? RegionScore::kGround
-             : RegionScore::kBuilding;
+             ? RegionInformation::kGround
+             : RegionInformation::kBuilding;
 }
 
 }  // namespace
 
-void RegionScoreOptions::Validate() const {
+void RegionOptions::Validate() const {
   if (columns >= 8 && columns <= 640) return;
   throw InputError("", "score.regions.columns", std::to_string(columns), "[8, 640]");
 }
 
-RegionScore::RegionScore(const cv::Mat& bgr,
-                         const PinholeCamera& camera,
-                         const CityModel& model,
-                         const RegionScoreOptions& options)
-    : camera_(camera.Scaled(static_cast<double>(options.columns) / camera.width)), model_(model) {
+RegionInformation::RegionInformation(const cv::Mat& bgr,
+                                     const PinholeCamera& camera,
+                                     const RegionOptions& options)
+    : camera_(camera.Scaled(static_cast<double>(options.columns) / camera.width)) {
   cv::Mat cells;
   cv::resize(bgr, cells, cv::Size(camera_.width, camera_.height), 0.0, 0.0, cv::INTER_AREA);
   std::vector<float> luma;
@@ -60,8 +59,11 @@ RegionScore::RegionScore(const cv::Mat& bgr,
       const float sum = static_cast<float>(c[0] + c[1] + c[2]) + 1.0f;
       blue.push_back((static_cast<float>(c[0]) - c[2]) / sum);
       green.push_back((2.0f * c[1] - c[0] - c[2]) / sum);
-      rays_.push_back(
-          camera_.RayFromImage({x + 0.5, y + 0.5}).cast<float>().normalized());
+      const std::size_t cell = luma.size() - 1;
+      if (cell % 4 == 0) rays_.push_back(simd::Splat(Eigen::Vector3f(0.0f, 0.0f, 1.0f)));
+      simd::SetLane(rays_.back(),
+                    static_cast<int>(cell % 4),
+                    camera_.RayFromImage({x + 0.5, y + 0.5}).cast<float>());
     }
   }
   const std::vector<int> luma_bins = RankBins(luma, kLumaBins);
@@ -71,12 +73,12 @@ RegionScore::RegionScore(const cv::Mat& bgr,
     colours_.push_back(static_cast<std::uint8_t>(
         (luma_bins[i] * kChromaBins + blue_bins[i]) * kChromaBins + green_bins[i]));
   }
-  has_colours_ = std::adjacent_find(colours_.begin(), colours_.end(), std::not_equal_to<>()) !=
-                 colours_.end();
+  has_colours_ =
+      std::adjacent_find(colours_.begin(), colours_.end(), std::not_equal_to<>()) != colours_.end();
 }
 
-double RegionScore::EnergyOfRegions(std::span<const std::uint8_t> regions) const {
-  if (!has_colours_) return 1.0;
+double RegionInformation::Share(std::span<const std::uint8_t> regions) const {
+  if (!has_colours_) return 0.0;
   std::array<std::array<int, kColours>, kRegions> counts{};
   std::array<int, kRegions> of_region{};
   std::array<int, kColours> of_colour{};
@@ -90,7 +92,7 @@ double RegionScore::EnergyOfRegions(std::span<const std::uint8_t> regions) const
     ++total;
   }
   // Without a building in view the sky and the ground alone would agree with any meadow.
-  if (of_region[kBuilding] == 0 || of_region[kBuilding] == total) return 1.0;
+  if (of_region[kBuilding] == 0 || of_region[kBuilding] == total) return 0.0;
   double information = 0.0;
   int joint_bins = 0;
   for (int r = 0; r < kRegions; ++r) {
@@ -105,22 +107,31 @@ double RegionScore::EnergyOfRegions(std::span<const std::uint8_t> regions) const
     return static_cast<int>(std::count_if(bins.begin(), bins.end(), [](int n) { return n > 0; }));
   };
   const double chance = 0.5 * (joint_bins - used(of_region) - used(of_colour) + 1);
-  return 1.0 - std::clamp((information - chance) / total / std::log(3.0), 0.0, 1.0);
+  return std::clamp((information - chance) / total / std::log(3.0), 0.0, 1.0);
 }
 
-double RegionScore::LogRatio(const PositionView& view,
-                             const Pose& cam_from_local,
-                             PictureEvidence::Workspace& workspace) const {
-  const Eigen::Matrix3f local_from_cam =
-      cam_from_local.cam_from_world.conjugate().toRotationMatrix().cast<float>();
-  workspace.labels.resize(rays_.size());
-  for (std::size_t cell = 0; cell < rays_.size(); ++cell) {
-    const Eigen::Vector3f direction = local_from_cam * rays_[cell];
-    const std::uint32_t* surface = view.surfaces.Find(direction);
-    workspace.labels[cell] =
-        surface == nullptr ? kRegions : RegionOf(*surface, direction.z() > 0.0f, model_);
+double RegionInformation::Share(const SurfacePanorama& surfaces,
+                                const CityModel& model,
+                                const Eigen::Matrix3f& cam_from_world,
+                                std::vector<std::uint8_t>& labels) const {
+  const Eigen::Matrix3f world_from_cam = cam_from_world.transpose();
+  const simd::Vec3x4 rows[3] = {simd::Splat(world_from_cam.row(0)),
+                                simd::Splat(world_from_cam.row(1)),
+                                simd::Splat(world_from_cam.row(2))};
+  labels.assign(4 * rays_.size(), kRegions);
+  for (std::size_t i = 0; i < rays_.size(); ++i) {
+    const simd::Vec3x4 directions = {
+        simd::Dot(rows[0], rays_[i]), simd::Dot(rows[1], rays_[i]), simd::Dot(rows[2], rays_[i])};
+    const simd::Int4 cells = surfaces.Find(directions);
+    for (int lane = 0; lane < 4; ++lane) {
+      if (cells[lane] < 0) continue;
+      labels[4 * i + static_cast<std::size_t>(lane)] =
+          RegionOf(surfaces.surfaces[static_cast<std::size_t>(cells[lane])],
+                   directions.z[lane] > 0.0f,
+                   model);
+    }
   }
-  return LogRatioOf(EnergyOfRegions(workspace.labels));
+  return Share(labels);
 }
 
 }  // namespace ridgeline
