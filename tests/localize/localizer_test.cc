@@ -112,6 +112,29 @@ TEST_F(LocalizerOnAStreet, FindsThePose) {
   }
 }
 
+TEST_F(LocalizerOnAStreet, PriorsWithWrongTiltsAreNoObstacle) {
+  *input_.prior.pitch_deg -= 3.5;
+  *input_.prior.roll_deg += 5.0;
+  const Localization found = localizer_.Localize(input_, 1, 0);
+  ASSERT_EQ(found.status, LocalizationStatus::kOk) << found.reason;
+  const PoseError error = ErrorOf(*found.pose, truth_);
+  EXPECT_LT(error.translation_m, 1.0);
+  EXPECT_LT(error.rotation_deg, 1.0);
+}
+
+TEST_F(LocalizerOnAStreet, TiltsFarFromThePriorsAreLessLikely) {
+  const Footprints footprints(model_);
+  const PoseSpace space(input_.prior, Options().search.space, localizer_.scene(), nullptr, footprints);
+  PoseSpace::Offset offset;
+  EXPECT_EQ(space.LogPrior(offset), 0.0);
+  offset.east_m = 4.0;
+  offset.heading_deg = 10.0;
+  EXPECT_EQ(space.LogPrior(offset), 0.0) << "uniform in place and heading";
+  offset.pitch_deg = 1.2;
+  offset.roll_deg = -1.6;  // one scale away: a bivariate Cauchy density is 2^-1.5 of its peak
+  EXPECT_NEAR(space.LogPrior(offset), -1.5 * std::log(2.0), 1e-12);
+}
+
 TEST_F(LocalizerOnAStreet, IsTheSameOnAnyNumberOfThreads) {
   const std::string one = PoseJson("photo", localizer_.Localize(input_, 1, 1), model_);
   EXPECT_EQ(PoseJson("photo", localizer_.Localize(input_, 1, 8), model_), one);
