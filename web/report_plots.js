@@ -20,8 +20,7 @@ const Plots = (() => {
     legend: {orientation: 'h', y: -0.22, x: 0},
   }, extra);
 
-  const config = {responsive: true, displaylogo: false,
-    modeBarButtonsToRemove: ['lasso2d', 'select2d', 'autoScale2d']};
+  const config = {responsive: true, displayModeBar: false};
 
   const render = (element) => {
     const {data, layout: look, open} = drawn.get(element)();
@@ -125,12 +124,12 @@ const Plots = (() => {
     data: Object.keys(names).map((outcome) => {
       const some = runs.filter((r) => r.outcome === outcome && r.translation !== null);
       return {name: names[outcome], mode: 'markers', x: some.map((r) => Math.max(r.translation, 0.01)),
-        y: some.map((r) => r.energy), text: some.map((r) => r.label),
+        y: some.map((r) => Math.max(r.energy, 1e-9)), text: some.map((r) => r.label),
         customdata: some.map((r) => r.index),
         marker: {color: color(outcome), size: 9, symbol: symbols[outcome]},
-        hovertemplate: '%{x:.2f} m, energy %{y:.3f}<extra></extra>'};
+        hovertemplate: '%{x:.2f} m, energy %{y:.2g}<extra></extra>'};
     }).filter((s) => s.x.length > 0),
-    layout: layout(axis('position error [m]', {type: 'log', dtick: 1}), axis('energy of the pose')),
+    layout: layout(axis('position error [m]', {type: 'log', dtick: 1}), axis('energy of the pose', {type: 'log', exponentformat: 'power'})),
     open,
   });
 
