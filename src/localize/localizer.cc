@@ -189,10 +189,17 @@ Localization Localizer::Localize(const LocalizationInput& input,
                                               map.tilts);
     // Between the places of a wide grid the model's edges are off by as much as the model errs.
     const double spacing_m = SpacingOf(ranges, map);
-    const std::unique_ptr<Score> coarse_score =
-        MakeScore(options.score, evidence, bgr, camera, scene, std::max(1.0, spacing_m));
-    volume = ComputeVolume(
-        *coarse_score, scene, space, evidence.camera(), tilts, surface_step_rad, map, threads);
+    const std::unique_ptr<Score> wide_score =
+        spacing_m > 1.0 ? MakeScore(options.score, evidence, bgr, camera, scene, spacing_m)
+                        : nullptr;
+    volume = ComputeVolume(wide_score ? *wide_score : *score,
+                           scene,
+                           space,
+                           evidence.camera(),
+                           tilts,
+                           surface_step_rad,
+                           map,
+                           threads);
     result.evaluations = volume->evaluations;
     result.map = MapOf(*volume, space, impl_->model);
     modes = FindModes(*volume, space, map);

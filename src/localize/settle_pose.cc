@@ -35,7 +35,7 @@ ScoredPose SettlePose(const Score& score,
                                      RangeOf(lines.camera, space.AnglesAt(to), {}, surface_step_rad),
                                      score.parts());
   PictureEvidence::Workspace workspace;
-  const double log_ratio = score.LogRatio(view, pose, workspace);
+  const double log_ratio = score.LogRatio(view, pose, workspace) + space.LogPrior(to);
   if (!(log_ratio >= start.log_ratio - options.max_loss)) return start;
   return {to, start.log_ratio};
 }
