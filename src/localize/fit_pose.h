@@ -13,7 +13,8 @@ namespace ridgeline {
 
 struct PoseFitOptions {
   EdgeMatchOptions matches;
-  // Factor on all tolerances in the first round, halved each round until it is 1.
+  // Factor on all tolerances in the first round, halved each round until it is 1. Set by the caller,
+  // who knows how good the start is.
   double first_tolerance = 2.0;
   // Rounds of matching and adjustment at most; fewer if the pose stands still.
   int max_rounds = 8;
@@ -29,7 +30,6 @@ struct PoseFitOptions {
 
   void Visit(OptionVisitor& v) {
     v.Group("matches", [this](OptionVisitor& g) { matches.Visit(g); });
-    v.Field("first_tolerance", first_tolerance);
     v.Field("max_rounds", max_rounds);
     v.Field("focal_range_percent", focal_range_percent);
     v.Field("max_overhang_m", max_overhang_m);
@@ -73,9 +73,10 @@ struct PictureLines {
 
 // Refines a pose by least squares on the distances between the projected visible edges and the
 // picture's lines: edges and lines are matched, the pose is adjusted, and so again (iterative closest
-// lines). Where the tilt is free, all lines that may be vertical hold it, edge or not: the model's errors
-// do not touch them. What the user knows holds what the picture does not: each free parameter has a normal prior
-// with the standard deviation of its range (half-range / sqrt 3), and stays in its range.
+// lines). Where the tilt is free, all lines that may be vertical hold it, edge or not: the model's
+// errors do not touch them. What the user knows holds what the picture does not: each free parameter
+// has a normal prior with the standard deviation of its range (half-range / sqrt 3), and stays in its
+// range.
 // The matches are those of the line likelihood, one standard deviation and one share of seen edges
 // for both (LineLikelihoodOptions).
 PoseFit FitPose(const PictureLines& lines,
