@@ -33,25 +33,33 @@ struct BenchArguments {
 };
 
 std::string TableOf(const Summary& summary) {
-  std::string text = "            recall   95 % interval   among the answered\n";
+  std::string text;
   char line[160];
-  for (std::size_t t = 0; t < kRecallThresholds.size(); ++t) {
+  if (summary.runs == 0) {
+    text = "No query has a truth: recall and errors are not known.\n";
+  } else {
+    text = "            recall   95 % interval   among the answered\n";
+    for (std::size_t t = 0; t < kRecallThresholds.size(); ++t) {
+      std::snprintf(line,
+                    sizeof(line),
+                    "%-10s %6.1f %%   %5.1f to %5.1f   %6.1f %%\n",
+                    kRecallThresholds[t].name,
+                    100.0 * summary.recall[t],
+                    100.0 * summary.recall_ci95[t].lower,
+                    100.0 * summary.recall_ci95[t].upper,
+                    100.0 * summary.recall_answered[t]);
+      text += line;
+    }
     std::snprintf(line,
                   sizeof(line),
-                  "%-10s %6.1f %%   %5.1f to %5.1f   %6.1f %%\n",
-                  kRecallThresholds[t].name,
-                  100.0 * summary.recall[t],
-                  100.0 * summary.recall_ci95[t].lower,
-                  100.0 * summary.recall_ci95[t].upper,
-                  100.0 * summary.recall_answered[t]);
+                  "median error %.2f m, %.2f deg; ",
+                  summary.translation_m.median,
+                  summary.rotation_deg.median);
     text += line;
   }
   std::snprintf(line,
                 sizeof(line),
-                "median error %.2f m, %.2f deg; abstained %.1f %%; %.2f s per query (median), %.0f "
-                "poses/s",
-                summary.translation_m.median,
-                summary.rotation_deg.median,
+                "abstained %.1f %%; %.2f s per query (median), %.0f poses/s",
                 100.0 * summary.abstained,
                 summary.seconds_median,
                 summary.evaluations_per_second);

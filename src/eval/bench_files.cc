@@ -29,19 +29,26 @@ Json JsonOf(const Summary& summary) {
   json["queries"] = summary.queries;
   json["runs"] = summary.all_runs;
   json["runs_with_truth"] = summary.runs;
-  for (std::size_t t = 0; t < kRecallThresholds.size(); ++t) {
+  // Without a truth nothing is known of errors: null, not 0.
+  const bool has_truth = summary.runs > 0;
+  for (const char* key : {"recall", "recall_ci95", "recall_answered"}) json[key] = nullptr;
+  for (std::size_t t = 0; has_truth && t < kRecallThresholds.size(); ++t) {
     const char* name = kRecallThresholds[t].name;
     json["recall"][name] = summary.recall[t];
     json["recall_ci95"][name] = {summary.recall_ci95[t].lower, summary.recall_ci95[t].upper};
     json["recall_answered"][name] = summary.recall_answered[t];
   }
-  json["translation_error_m"] = JsonOf(summary.translation_m);
-  json["rotation_error_deg"] = JsonOf(summary.rotation_deg);
+  json["translation_error_m"] = has_truth ? JsonOf(summary.translation_m) : Json();
+  json["rotation_error_deg"] = has_truth ? JsonOf(summary.rotation_deg) : Json();
   json["abstained"] = summary.abstained;
-  json["confidence_0.9"] = {{"share", summary.confident},
-                            {"recall_2m_2deg", summary.confident_recall_2m_2deg}};
-  json["coverage_95"] = {{"position_ellipse", summary.ellipse_coverage},
-                         {"heading_interval", summary.interval_coverage}};
+  json["confidence_0.9"] = {
+      {"share", summary.confident},
+      {"recall_2m_2deg", has_truth ? Json(summary.confident_recall_2m_2deg) : Json()}};
+  json["coverage_95"] = nullptr;
+  if (has_truth) {
+    json["coverage_95"] = {{"position_ellipse", summary.ellipse_coverage},
+                           {"heading_interval", summary.interval_coverage}};
+  }
   json["seconds_per_query"] = {{"median", summary.seconds_median}, {"p95", summary.seconds_p95}};
   json["pose_evaluations_per_second"] = summary.evaluations_per_second;
   return json;

@@ -91,11 +91,13 @@ Summary Summarize(std::span<const RunRecord> runs) {
   std::map<std::string, std::vector<const RunRecord*>> by_query;
   std::vector<double> seconds;
   std::size_t abstained = 0;
+  std::size_t sure = 0;
   double evaluations = 0.0;
   for (const RunRecord& run : runs) {
     seconds.push_back(run.seconds);
     evaluations += static_cast<double>(run.evaluations);
     if (!run.pose) ++abstained;
+    if (run.pose && run.confidence >= 0.9) ++sure;
     by_query[run.query];
     if (!run.has_truth) continue;
     scored.push_back(&run);
@@ -140,7 +142,7 @@ Summary Summarize(std::span<const RunRecord> runs) {
   }
   summary.translation_m = SpreadOf(translations);
   summary.rotation_deg = SpreadOf(rotations);
-  summary.confident = Share(confident, scored.size());
+  summary.confident = Share(sure, runs.size());
   summary.confident_recall_2m_2deg = Share(confident_right, confident);
   summary.ellipse_coverage = CoverageOf(runs, &RunRecord::ellipse_holds_truth);
   summary.interval_coverage = CoverageOf(runs, &RunRecord::interval_holds_truth);

@@ -76,7 +76,7 @@ struct Summary {
   Spread translation_m;  // of the answered
   Spread rotation_deg;
   double abstained = 0.0;  // share of all runs
-  double confident = 0.0;  // share of runs with confidence >= 0.9
+  double confident = 0.0;  // share of all runs with confidence >= 0.9
   double confident_recall_2m_2deg = 0.0;
   double ellipse_coverage = 0.0;  // share of answered runs
   double interval_coverage = 0.0;

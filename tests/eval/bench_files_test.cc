@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <nlohmann/json.hpp>
+
 #include "base/atomic_file.h"
 #include "base/error.h"
 
@@ -32,6 +34,24 @@ TEST(ResultsCsv, QuotesNamesAndLeavesUnknownFieldsEmpty) {
   const std::string csv = ResultsCsv(runs);
   EXPECT_THAT(csv, testing::HasSubstr("\n\"a,\"\"b\"\"\",3,ok,0.250000,0.750000,690000.2500,"));
   EXPECT_THAT(csv, testing::HasSubstr("\nc,0,abstained,1.000000,0.000000,,,,,,,,,,,0,0.000\n"));
+}
+
+TEST(SummaryJson, WithoutTruthErrorsAreNullAndNotZero) {
+  RunRecord run = Answer();
+  run.confidence = 0.95;
+  const auto json =
+      nlohmann::json::parse(SummaryJson("d", "default", std::vector<RunRecord>{run}));
+  EXPECT_EQ(json["runs_with_truth"], 0);
+  EXPECT_TRUE(json["recall"].is_null());
+  EXPECT_TRUE(json["translation_error_m"].is_null());
+  EXPECT_TRUE(json["coverage_95"].is_null());
+  EXPECT_DOUBLE_EQ(json["confidence_0.9"]["share"].get<double>(), 1.0);
+
+  run.has_truth = true;
+  run.error = PoseError{0.3, 0.3, 0.1};
+  const auto known =
+      nlohmann::json::parse(SummaryJson("d", "default", std::vector<RunRecord>{run}));
+  EXPECT_DOUBLE_EQ(known["recall"]["2m_2deg"].get<double>(), 1.0);
 }
 
 TEST(PosesCsv, OwnResultsAreReadBack) {
