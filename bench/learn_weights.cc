@@ -24,6 +24,7 @@ namespace {
 struct Settings {
   std::vector<std::string> datasets;
   std::string perturb = "10,10,0,20";
+  double ridge = 0.0003;  // best in cross-validation over queries (docs/scores.md)
   std::vector<int> seeds = {1};
   std::string out;
   LocalizerOptions options;
@@ -88,11 +89,36 @@ Box BoxOf(const Query& query, int seed, const Localizer& localizer, const Settin
   return box;
 }
 
+// Standard deviation of each cue over the poses of all boxes.
+std::array<double, kCues> SpreadsOf(const std::vector<Box>& boxes) {
+  std::array<double, kCues> sums{};
+  std::array<double, kCues> squares{};
+  double count = 0.0;
+  for (const Box& box : boxes) {
+    count += static_cast<double>(box.cues.size());
+    for (const CueVector& cues : box.cues) {
+      for (int k = 0; k < kCues; ++k) {
+        sums[k] += cues[k];
+        squares[k] += static_cast<double>(cues[k]) * cues[k];
+      }
+    }
+  }
+  std::array<double, kCues> spreads;
+  for (int k = 0; k < kCues; ++k) {
+    const double mean = sums[k] / count;
+    spreads[k] = std::sqrt(std::max(squares[k] / count - mean * mean, 1e-12));
+  }
+  return spreads;
+}
+
 // Mean negative log probability of the poses near the truth under P(pose) ~ exp(sum of w_k cue_k),
-// mixed with a uniform share, so that no single picture decides; the parameters are log w_k.
+// mixed with a uniform share, so that no single picture decides, and a ridge on what the cues
+// typically contribute (w_k times their spread), since the pictures are few; the parameters are
+// log w_k.
 class Loss final : public ceres::FirstOrderFunction {
  public:
-  explicit Loss(const std::vector<Box>& boxes) : boxes_(boxes) {}
+  Loss(const std::vector<Box>& boxes, double ridge)
+      : boxes_(boxes), spreads_(SpreadsOf(boxes)), ridge_(ridge) {}
 
   int NumParameters() const override { return kCues; }
 
@@ -132,6 +158,10 @@ class Loss final : public ceres::FirstOrderFunction {
         slope[k] -= (1.0 - kUniformShare) * d / mixed / static_cast<double>(boxes_.size());
       }
     }
+    for (int k = 0; k < kCues; ++k) {
+      *cost += ridge_ * weights[k] * weights[k] * spreads_[k] * spreads_[k];
+      slope[k] += 2.0 * ridge_ * weights[k] * spreads_[k] * spreads_[k];
+    }
     if (gradient != nullptr) {
       for (int k = 0; k < kCues; ++k) gradient[k] = slope[k] * weights[k];
     }
@@ -140,6 +170,8 @@ class Loss final : public ceres::FirstOrderFunction {
 
  private:
   const std::vector<Box>& boxes_;
+  std::array<double, kCues> spreads_;
+  double ridge_;
 };
 
 void Learn(const Settings& settings) {
@@ -167,7 +199,7 @@ void Learn(const Settings& settings) {
 
   std::array<double, kCues> logs;
   for (int k = 0; k < kCues; ++k) logs[k] = std::log(settings.options.score.weights[k]);
-  const ceres::GradientProblem problem(new Loss(boxes));
+  const ceres::GradientProblem problem(new Loss(boxes, settings.ridge));
   ceres::GradientProblemSolver::Options solver;
   solver.max_num_iterations = 200;
   ceres::GradientProblemSolver::Summary summary;
@@ -199,6 +231,7 @@ int main(int argc, char** argv) {
   app.add_option(
       "--perturb", settings.perturb, "half-ranges of the boxes: east, north, height, heading");
   app.add_option("--seeds", settings.seeds, "of the priors")->delimiter(',');
+  app.add_option("--ridge", settings.ridge, "weight of the ridge");
   app.add_option("--set", assignments, "options, as score.evidence.work_size_px=640");
   app.add_option("--out", settings.out, "configuration to write");
   CLI11_PARSE(app, argc, argv);

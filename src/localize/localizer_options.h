@@ -31,7 +31,8 @@ struct ScoreOptions {
   std::string name = "evidence";
   // Weights of the cues, in the order of kCueNames: the maximum likelihood of the dev queries
   // (docs/scores.md has the command).
-  std::vector<double> weights = {0.17, 0.056, 0.029, 0.08, 0.26, 5.6, 1.2, 53.0};
+  std::vector<double> weights = {
+      0.095, 0.031, 0.030, 0.070, 0.19, 3.6, 1.2, 38.0, 0.0175};
   EvidenceOptions evidence;
   LineEnergyOptions line_energy;
   OrientedChamferOptions oriented_chamfer;

@@ -14,6 +14,8 @@ using simd::Float4;
 using simd::Int4;
 
 constexpr float kPi = std::numbers::pi_v<float>;
+// Spacing of the first rays, in cells; a power of two.
+constexpr int kCoarsest = 4;
 
 // Angle of the vectors (x, y) from the x axis, x and y >= 0.
 Float4 FirstQuadrantAngle(Float4 x, Float4 y) {
@@ -23,15 +25,9 @@ Float4 FirstQuadrantAngle(Float4 x, Float4 y) {
   return y > x ? 0.5f * kPi - angle : angle;
 }
 
-// Cell of a grid whose first cell is centred on `first`; -1 before it.
-Int4 CellOf(Float4 angle, float first, float inverse_step) {
-  const Float4 place = (angle - first) * inverse_step + 0.5f;
-  return place < 0.0f ? Int4{-1, -1, -1, -1} : __builtin_convertvector(place, Int4);
-}
-
 }  // namespace
 
-Int4 SurfacePanorama::Find(const simd::Vec3x4& directions) const {
+SurfacePanorama::Places SurfacePanorama::PlacesOf(const simd::Vec3x4& directions) const {
   const auto& [east, north, height] = directions;
   const auto inverse_step = static_cast<float>(1.0 / step);
   Float4 azimuth = FirstQuadrantAngle(simd::Abs(north), simd::Abs(east));
@@ -41,10 +37,16 @@ Int4 SurfacePanorama::Find(const simd::Vec3x4& directions) const {
   azimuth = azimuth < first - static_cast<float>(0.5 * step) ? azimuth + 2.0f * kPi : azimuth;
   const Float4 rise =
       FirstQuadrantAngle(simd::Sqrt(east * east + north * north), simd::Abs(height));
-  const Int4 column = CellOf(azimuth, first, inverse_step);
-  const Int4 row =
-      CellOf(height < 0.0f ? -rise : rise, static_cast<float>(first_elevation), inverse_step);
-  const Int4 inside = (column >= 0) & (column < columns) & (row >= 0) & (row < rows);
+  const Float4 elevation = height < 0.0f ? -rise : rise;
+  return {(azimuth - first) * inverse_step + 0.5f,
+          (elevation - static_cast<float>(first_elevation)) * inverse_step + 0.5f};
+}
+
+Int4 SurfacePanorama::CellsAt(const Places& places) const {
+  const Int4 column = __builtin_convertvector(places.column, Int4);
+  const Int4 row = __builtin_convertvector(places.row, Int4);
+  const Int4 inside = (places.column >= 0.0f) & (column < columns) & (places.row >= 0.0f) &
+                      (row < rows);
   return inside ? row * columns + column : Int4{-1, -1, -1, -1};
 }
 
@@ -52,6 +54,91 @@ const std::uint32_t* SurfacePanorama::Find(const Eigen::Vector3f& direction) con
   const std::int32_t cell = Find(simd::Splat(direction))[0];
   return cell < 0 ? nullptr : &surfaces[static_cast<std::size_t>(cell)];
 }
+
+namespace {
+
+// Casts rays through chosen cells of a panorama.
+class GridCaster {
+ public:
+  GridCaster(const Scene& scene, const Eigen::Vector3d& position, SurfacePanorama& panorama)
+      : scene_(scene), position_(position), panorama_(panorama) {
+    for (int column = 0; column < panorama.columns; ++column) {
+      const double azimuth = panorama.first_azimuth + column * panorama.step;
+      horizontal_.emplace_back(std::sin(azimuth), std::cos(azimuth));
+    }
+    for (int row = 0; row < panorama.rows; ++row) {
+      const double elevation = panorama.first_elevation + row * panorama.step;
+      vertical_.emplace_back(std::cos(elevation), std::sin(elevation));
+    }
+  }
+
+  void Want(int row, int column) {
+    const Eigen::Vector2f& v = vertical_[static_cast<std::size_t>(row)];
+    const Eigen::Vector2f& h = horizontal_[static_cast<std::size_t>(column)];
+    directions_.emplace_back(v.x() * h.x(), v.x() * h.y(), v.y());
+    cells_.push_back(static_cast<std::size_t>(row) * panorama_.columns + column);
+  }
+
+  void Cast() {
+    const std::vector<std::uint32_t> seen = scene_.SurfacesAlong(position_, directions_);
+    for (std::size_t i = 0; i < seen.size(); ++i) panorama_.surfaces[cells_[i]] = seen[i];
+    directions_.clear();
+    cells_.clear();
+  }
+
+ private:
+  const Scene& scene_;
+  Eigen::Vector3d position_;
+  SurfacePanorama& panorama_;
+  std::vector<Eigen::Vector2f> horizontal_;  // sine and cosine of the azimuth, by column
+  std::vector<Eigen::Vector2f> vertical_;    // cosine and sine of the elevation, by row
+  std::vector<Eigen::Vector3f> directions_;
+  std::vector<std::size_t> cells_;
+};
+
+// Fills the grid of half the spacing `block`, of which every second row and column is known: from
+// the corners of a block where they see the same, else by rays.
+void Halve(int block, SurfacePanorama& panorama, GridCaster& caster) {
+  const int half = block / 2;
+  const auto at = [&](int row, int column) -> std::uint32_t& {
+    return panorama.surfaces[static_cast<std::size_t>(row) * panorama.columns + column];
+  };
+  const int blocks_across = (panorama.columns - 1) / block;
+  // Whether the corners of the blocks in a row of them differ; none before the first, after the last.
+  const auto differ_in = [&](int row) {
+    std::vector<char> differ(static_cast<std::size_t>(blocks_across) + 2, 0);
+    if (row < 0 || row + block >= panorama.rows) return differ;
+    for (int i = 0; i < blocks_across; ++i) {
+      const std::uint32_t corner = at(row, i * block);
+      differ[i + 1] = corner != at(row, (i + 1) * block) || corner != at(row + block, i * block) ||
+                      corner != at(row + block, (i + 1) * block);
+    }
+    return differ;
+  };
+  std::vector<char> above = differ_in(-block);
+  for (int row = 0; row < panorama.rows; row += block) {
+    const std::vector<char> below = differ_in(row);
+    const bool has_below = row + block < panorama.rows;
+    for (int i = 0; i <= blocks_across; ++i) {
+      const int column = i * block;
+      const auto set = [&](int r, int c, bool cast) {
+        if (cast) {
+          caster.Want(r, c);
+        } else {
+          at(r, c) = at(row, column);
+        }
+      };
+      // Blocks are numbered from 1: block i + 1 is to the right of this corner.
+      if (i < blocks_across) set(row, column + half, above[i + 1] || below[i + 1]);
+      if (has_below) set(row + half, column, below[i] || below[i + 1]);
+      if (i < blocks_across && has_below) set(row + half, column + half, below[i + 1]);
+    }
+    above = below;
+  }
+  caster.Cast();
+}
+
+}  // namespace
 
 SurfacePanorama SurfacesFrom(const Scene& scene,
                              const Eigen::Vector3d& position,
@@ -68,23 +155,19 @@ SurfacePanorama SurfacesFrom(const Scene& scene,
                static_cast<int>(std::ceil(
                    (range.sector.highest_elevation - range.sector.lowest_elevation) / range.step)) +
                    1);
-  std::vector<Eigen::Vector2f> horizontal;  // per column
-  horizontal.reserve(static_cast<std::size_t>(panorama.columns));
-  for (int column = 0; column < panorama.columns; ++column) {
-    const double azimuth = panorama.first_azimuth + column * panorama.step;
-    horizontal.emplace_back(std::sin(azimuth), std::cos(azimuth));
+  // Whole blocks of the coarsest grid.
+  const auto up_to_block = [](int cells) {
+    return (cells - 1 + kCoarsest - 1) / kCoarsest * kCoarsest + 1;
+  };
+  panorama.columns = up_to_block(panorama.columns);
+  panorama.rows = up_to_block(panorama.rows);
+  panorama.surfaces.assign(static_cast<std::size_t>(panorama.columns) * panorama.rows, kNoSurface);
+  GridCaster caster(scene, position, panorama);
+  for (int row = 0; row < panorama.rows; row += kCoarsest) {
+    for (int column = 0; column < panorama.columns; column += kCoarsest) caster.Want(row, column);
   }
-  std::vector<Eigen::Vector3f> directions;
-  directions.reserve(static_cast<std::size_t>(panorama.columns) * panorama.rows);
-  for (int row = 0; row < panorama.rows; ++row) {
-    const double elevation = panorama.first_elevation + row * panorama.step;
-    const auto cosine = static_cast<float>(std::cos(elevation));
-    const auto sine = static_cast<float>(std::sin(elevation));
-    for (const Eigen::Vector2f& h : horizontal) {
-      directions.emplace_back(cosine * h.x(), cosine * h.y(), sine);
-    }
-  }
-  panorama.surfaces = scene.SurfacesAlong(position, directions);
+  caster.Cast();
+  for (int block = kCoarsest; block > 1; block /= 2) Halve(block, panorama, caster);
   return panorama;
 }
 

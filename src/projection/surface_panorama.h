@@ -24,7 +24,14 @@ struct SurfacePanorama {
   // Surface in a direction (east, north, height), by the nearest ray; nullptr outside the grid.
   const std::uint32_t* Find(const Eigen::Vector3f& direction) const;
   // Indices into `surfaces` for four directions; -1 outside the grid.
-  simd::Int4 Find(const simd::Vec3x4& directions) const;
+  simd::Int4 Find(const simd::Vec3x4& directions) const { return CellsAt(PlacesOf(directions)); }
+
+  // Places in the grid: cell i spans [i, i + 1). The column jumps by a turn behind the first one.
+  struct Places {
+    simd::Float4 column, row;
+  };
+  Places PlacesOf(const simd::Vec3x4& directions) const;
+  simd::Int4 CellsAt(const Places& places) const;
 };
 
 struct PanoramaRange {
@@ -32,6 +39,8 @@ struct PanoramaRange {
   double step = 0.02;  // [rad]
 };
 
+// Rays are cast four steps apart, and between those that see different surfaces down to every step;
+// what is thinner than four steps can be missed.
 SurfacePanorama SurfacesFrom(const Scene& scene,
                              const Eigen::Vector3d& position,
                              const PanoramaRange& range);

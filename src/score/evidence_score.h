@@ -20,7 +20,11 @@ class EvidenceScore final : public Score {
                 const std::vector<double>& weights,
                 double tolerance_factor);
 
-  ViewParts parts() const override { return {true, weights_[kFacadeCue] > 0.0 || weights_[kRegionCue] > 0.0}; }
+  ViewParts parts() const override {
+    return {true,
+            weights_[kFacadeCue] > 0.0 || weights_[kRegionCue] > 0.0 ||
+                weights_[kFacadeColourCue] > 0.0};
+  }
   double LogRatio(const PositionView& view,
                   const Pose& cam_from_local,
                   PictureEvidence::Workspace& workspace) const override;

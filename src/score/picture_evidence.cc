@@ -50,7 +50,7 @@ void EvidenceOptions::Validate() const {
   lines.Validate();
   sky.Validate();
   facades.Validate();
-  regions.Validate();
+  colours.Validate();
 }
 
 PictureEvidence::PictureEvidence(const cv::Mat& bgr,
@@ -79,7 +79,7 @@ PictureEvidence::PictureEvidence(const cv::Mat& reduced,
       field_(segments_, work.width, work.height, threads),
       line_options_(options.lines),
       facades_(segments_, camera_, options.facades),
-      regions_(reduced, camera_, options.regions),
+      colours_(reduced, camera_, options.colours),
       sky_(SkyLogOdds(reduced, SkyLikelihoodOptions{}), options.sky),
       sky_camera_(camera_.Scaled(static_cast<double>(sky_.columns()) / camera_.width)) {}
 
@@ -104,8 +104,10 @@ CueVector PictureEvidence::Cues(const PositionView& view,
   cues[kSkyCue] = static_cast<float>(SkyLogRatio(sky_, workspace.skyline_rows));
   if (!view.surfaces.surfaces.empty()) {
     cues[kFacadeCue] = facades_.LogRatio(view.surfaces, model, rotation);
-    cues[kRegionCue] =
-        static_cast<float>(regions_.Share(view.surfaces, model, rotation, workspace.labels));
+    const ColourInformation::Cues colours =
+        colours_.Of(view.surfaces, view.groups, rotation, workspace.colours);
+    cues[kRegionCue] = static_cast<float>(colours.regions);
+    cues[kFacadeColourCue] = static_cast<float>(colours.facades);
   }
   return cues;
 }

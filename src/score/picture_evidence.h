@@ -9,11 +9,11 @@
 
 #include "base/options.h"
 #include "lines/line_detector.h"
+#include "score/colour_information.h"
 #include "score/facade_directions.h"
 #include "score/line_likelihood.h"
 #include "score/oriented_distance_field.h"
 #include "score/position_view.h"
-#include "score/region_information.h"
 #include "score/sky_table.h"
 #include "skyline/sky_likelihood.h"
 
@@ -25,16 +25,16 @@ struct EvidenceOptions {
   LineLikelihoodOptions lines;
   SkyTableOptions sky;
   FacadeDirectionOptions facades;
-  RegionOptions regions;
+  ColourOptions colours;
   // Resolution of the surfaces seen from a position [deg].
-  double surface_step_deg = 1.0;
+  double surface_step_deg = 0.5;
 
   void Visit(OptionVisitor& v) {
     v.Field("work_size_px", work_size_px);
     v.Group("lines", [this](OptionVisitor& g) { lines.Visit(g); });
     v.Group("sky", [this](OptionVisitor& g) { sky.Visit(g); });
     v.Group("facades", [this](OptionVisitor& g) { facades.Visit(g); });
-    v.Group("regions", [this](OptionVisitor& g) { regions.Visit(g); });
+    v.Group("colours", [this](OptionVisitor& g) { colours.Visit(g); });
     v.Field("surface_step_deg", surface_step_deg);
   }
   void Validate() const;
@@ -45,10 +45,12 @@ struct EvidenceOptions {
 inline constexpr int kSkyCue = kEdgeKinds;
 inline constexpr int kFacadeCue = kEdgeKinds + 1;
 inline constexpr int kRegionCue = kEdgeKinds + 2;
-inline constexpr int kCues = kEdgeKinds + 3;
+inline constexpr int kFacadeColourCue = kEdgeKinds + 3;
+inline constexpr int kCues = kEdgeKinds + 4;
 using CueVector = std::array<float, kCues>;
 inline constexpr std::array<const char*, kCues> kCueNames = {
-    "skyline_edges", "occlusions", "folds", "ground_lines", "seams", "sky", "facades", "regions"};
+    "skyline_edges", "occlusions", "folds", "ground_lines", "seams",
+    "sky", "facades", "regions", "facade_colours"};
 
 // What a picture says, prepared so that a pose costs microseconds.
 class PictureEvidence {
@@ -58,7 +60,7 @@ class PictureEvidence {
     std::vector<ProjectedSegment> segments;
     std::vector<LineSegment> lines;
     std::vector<float> skyline_rows;
-    std::vector<std::uint8_t> labels;
+    ColourInformation::Workspace colours;
   };
 
   // @param bgr  Undistorted picture, 8 bit, three channels.
@@ -103,7 +105,7 @@ class PictureEvidence {
   OrientedDistanceField field_;
   LineLikelihoodOptions line_options_;
   FacadeDirections facades_;
-  RegionInformation regions_;
+  ColourInformation colours_;
   SkyTable sky_;
   PinholeCamera sky_camera_;
 };

@@ -37,7 +37,10 @@ PositionView ViewFrom(const Scene& scene,
                       const PanoramaRange& range,
                       const ViewParts& parts) {
   PositionView view;
-  if (parts.surfaces) view.surfaces = SurfacesFrom(scene, position, range);
+  if (parts.surfaces) {
+    view.surfaces = SurfacesFrom(scene, position, range);
+    view.groups = GroupsOf(view.surfaces, scene.model());
+  }
   if (!parts.edges_and_skyline) return view;
   view.visible = scene.VisibleFrom(position, range.sector);
   KeepLargest(view.visible);

@@ -7,6 +7,7 @@
 #include "projection/scene.h"
 #include "projection/surface_panorama.h"
 #include "score/edge_kind.h"
+#include "score/surface_groups.h"
 
 namespace ridgeline {
 
@@ -16,6 +17,7 @@ struct PositionView {
   std::vector<EdgeKind> kinds;           // of the pieces
   std::vector<Eigen::Vector3f> skyline;  // unit vectors to the skyline, by azimuth
   SurfacePanorama surfaces;
+  SurfaceGroups groups;  // of the surfaces
 };
 
 // Which parts of a view a score reads; the others are left empty.

@@ -8,7 +8,6 @@
 
 #include "score/gradient_score.h"
 #include "score/oriented_chamfer_score.h"
-#include "score/region_information.h"
 #include "score/unexplained_score.h"
 
 namespace ridgeline {
@@ -150,88 +149,6 @@ TEST(GradientScore, AFlatPictureHasEnergyOne) {
   const GradientScore score(cv::Mat::zeros(kHeight, kWidth, CV_8UC3), kCamera, {});
   EXPECT_EQ(score.EnergyOfEdges(HouseEdges(0, 0)), 1.0);
   EXPECT_STREQ(score.unusable(), "the picture has no gradients");
-}
-
-// Regions of a grid: sky above `horizon` rows, a building in the columns [first, last), ground
-// below.
-std::vector<std::uint8_t> Regions(const RegionInformation& score,
-                                  int horizon,
-                                  int first,
-                                  int last) {
-  std::vector<std::uint8_t> regions;
-  for (int y = 0; y < score.camera().height; ++y) {
-    for (int x = 0; x < score.camera().width; ++x) {
-      const bool is_building = x >= first && x < last && y >= 8 && y < horizon;
-      regions.push_back(is_building   ? RegionInformation::kBuilding
-                        : y < horizon ? RegionInformation::kSky
-                                      : RegionInformation::kGround);
-    }
-  }
-  return regions;
-}
-
-class RegionsOfAPicture : public ::testing::Test {
- protected:
-  // 64 x 48 cells: sky above row 32, a building in columns 20 to 44, ground below.
-  static cv::Mat Picture(const cv::Scalar& sky, const cv::Scalar& wall, const cv::Scalar& ground) {
-    cv::Mat picture(480, 640, CV_8UC3, sky);
-    picture.rowRange(320, 480).setTo(ground);
-    picture(cv::Rect(200, 80, 240, 240)).setTo(wall);
-    return picture;
-  }
-
-  double EnergyOf(const cv::Mat& picture, int horizon, int first, int last) const {
-    const RegionInformation information(picture, camera_, kGrid);
-    return 1.0 - information.Share(Regions(information, horizon, first, last));
-  }
-
-  static constexpr RegionOptions kGrid{64};
-  PinholeCamera camera_{640, 480, 600.0, 600.0, 320.0, 240.0};
-  cv::Mat picture_ = Picture({240, 200, 160}, {60, 110, 150}, {90, 90, 90});
-};
-
-TEST_F(RegionsOfAPicture, TrueRegionsTellAllThatRegionsCan) {
-  // Three colours, three regions: the information is the entropy of the regions.
-  const double cells = 64.0 * 48.0;
-  const double building = 24.0 * 24.0 / cells;
-  const double ground = 64.0 * 16.0 / cells;
-  const double sky = 1.0 - building - ground;
-  const double entropy =
-      -building * std::log(building) - ground * std::log(ground) - sky * std::log(sky);
-  // Less the chance of Miller and Madow: (3 - 3 - 3 + 1) / 2 = -1 cell, to the other side.
-  EXPECT_NEAR(EnergyOf(picture_, 32, 20, 44), 1.0 - (entropy + 1.0 / cells) / std::log(3.0), 1e-9);
-}
-
-TEST_F(RegionsOfAPicture, RisesWithTheShift) {
-  double last = EnergyOf(picture_, 32, 20, 44);
-  for (const int shift : {1, 2, 4, 8}) {
-    const double energy = EnergyOf(picture_, 32, 20 + shift, 44 + shift);
-    EXPECT_GT(energy, last);
-    last = energy;
-  }
-}
-
-TEST_F(RegionsOfAPicture, BrightnessAndContrastDoNotMatter) {
-  cv::Mat darker;
-  picture_.convertTo(darker, CV_8U, 0.5);
-  EXPECT_NEAR(EnergyOf(darker, 32, 22, 46), EnergyOf(picture_, 32, 22, 46), 1e-9);
-}
-
-TEST_F(RegionsOfAPicture, WithoutColoursOrBuildingsTheEnergyIsOne) {
-  const cv::Mat black = cv::Mat::zeros(480, 640, CV_8UC3);
-  EXPECT_EQ(EnergyOf(black, 32, 20, 44), 1.0);
-  EXPECT_FALSE(RegionInformation(black, camera_, kGrid).has_colours());
-  EXPECT_EQ(EnergyOf(picture_, 32, 0, 0), 1.0);  // no building in view
-  const RegionInformation information(picture_, camera_, kGrid);
-  const std::vector<std::uint8_t> unknown(64 * 48, RegionInformation::kRegions);
-  EXPECT_EQ(information.Share(unknown), 0.0);
-}
-
-TEST_F(RegionsOfAPicture, NoiseAloneIsNearOne) {
-  cv::Mat noise(480, 640, CV_8UC3);
-  cv::RNG random(7);
-  random.fill(noise, cv::RNG::UNIFORM, 0, 255);
-  EXPECT_GT(EnergyOf(noise, 32, 20, 44), 0.99);
 }
 
 const std::vector<EdgeKind> kOutline = {EdgeKind::kSkyline};
