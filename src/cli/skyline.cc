@@ -143,10 +143,9 @@ SkylineFrameResult ResultOf(const SkylineFrame& frame,
   SkylineFrameResult result;
   result.status = NameOf(frame.match.status);
   result.reason = frame.match.reason;
-  result.before_px = frame.sensors_distance_px;
-  result.after_px = frame.match.distance_after_px;
-  result.plain_before_px = frame.plain_before_px;
-  result.plain_after_px = frame.plain_after_px;
+  result.method = NameOf(frame.method);
+  result.by_sensors = frame.by_sensors;
+  result.at_best = frame.at_best;
   result.start = known.start;
   if (frame.match.pose) result.pose = to_world(*frame.match.pose);
   result.times = frame.times;
@@ -179,6 +178,11 @@ std::vector<SkylineFrameResult> Track(SequenceInput& input,
         start.center_in_world -= input.model->origin_in_world;
         frame = tracker->Track(picture, camera, start);
         result = ResultOf(frame, known, input.model->origin_in_world);
+        if (known.truth) {
+          Pose truth = *known.truth;
+          truth.center_in_world -= input.model->origin_in_world;
+          result.at_truth = tracker->DistancesAt(frame.skyline, camera, truth);
+        }
       } else {
         frame = ExtractOnly(picture, arguments.track);
         result.status = tracker ? "missing_sensors" : "extracted";
@@ -199,10 +203,10 @@ void Report(const SkylineSummary& s, const std::string& out, bool matched, const
   if (context.json) {
     nlohmann::ordered_json json{{"frames", s.frames},
                                 {"matched", s.matched},
-                                {"l1_before_px", s.before_px},
-                                {"l1_after_px", s.after_px},
-                                {"plain_l1_before_px", s.plain_before_px},
-                                {"plain_l1_after_px", s.plain_after_px},
+                                {"l1_before_px", s.by_sensors.used_px},
+                                {"l1_after_px", s.at_best.used_px},
+                                {"plain_l1_before_px", s.by_sensors.plain_px},
+                                {"plain_l1_after_px", s.at_best.plain_px},
                                 {"extract_ms", s.times.extract_ms},
                                 {"clean_ms", s.times.clean_ms},
                                 {"match_ms", s.times.match_ms}};
@@ -210,6 +214,8 @@ void Report(const SkylineSummary& s, const std::string& out, bool matched, const
       json["start_heading_error_deg"] = s.start_heading_deg;
       json["heading_error_deg"] = s.heading_deg;
       json["tilt_error_deg"] = s.tilt_deg;
+      json["l1_truth_px"] = s.at_truth.used_px;
+      json["plain_l1_truth_px"] = s.at_truth.plain_px;
     }
     context.Print(json.dump(2));
     return;
@@ -227,10 +233,10 @@ void Report(const SkylineSummary& s, const std::string& out, bool matched, const
                 sizeof line,
                 "L1 %.1f px -> %.1f px (at 640 px; all columns: %.1f -> %.1f); extraction %.1f ms, "
                 "clean-up %.1f ms, match %.1f ms",
-                s.before_px,
-                s.after_px,
-                s.plain_before_px,
-                s.plain_after_px,
+                s.by_sensors.used_px,
+                s.at_best.used_px,
+                s.by_sensors.plain_px,
+                s.at_best.plain_px,
                 s.times.extract_ms,
                 s.times.clean_ms,
                 s.times.match_ms);
@@ -238,10 +244,13 @@ void Report(const SkylineSummary& s, const std::string& out, bool matched, const
   if (s.with_truth == 0) return;
   std::snprintf(line,
                 sizeof line,
-                "heading error %.2f deg -> %.2f deg, tilt error %.2f deg",
+                "heading error %.2f deg -> %.2f deg, tilt error %.2f deg; L1 at the true poses %.1f "
+                "px (all columns: %.1f)",
                 s.start_heading_deg,
                 s.heading_deg,
-                s.tilt_deg);
+                s.tilt_deg,
+                s.at_truth.used_px,
+                s.at_truth.plain_px);
   context.Print(line);
 }
 

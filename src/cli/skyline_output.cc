@@ -64,6 +64,19 @@ ViewAngles AngleErrors(const Pose& pose, const Pose& truth) {
           HeadingDifferenceDeg(a.roll_deg, b.roll_deg)};
 }
 
+std::optional<double> Used(const std::optional<SkylineDistances>& d) {
+  return d ? std::optional<double>(d->used_px) : std::nullopt;
+}
+
+std::optional<double> Plain(const std::optional<SkylineDistances>& d) {
+  return d ? std::optional<double>(d->plain_px) : std::nullopt;
+}
+
+void AddTo(SkylineDistances& sum, const std::optional<SkylineDistances>& d) {
+  sum.used_px += Used(d).value_or(0.0);
+  sum.plain_px += Plain(d).value_or(0.0);
+}
+
 const char* NameOf(SkylineColumn column) {
   switch (column) {
     case SkylineColumn::kSeen:
@@ -85,10 +98,11 @@ std::string SkylineFramesCsv(const std::vector<SkylineFrameResult>& frames) {
       "id,status,l1_before_px,l1_after_px,east_m,north_m,height_m,heading_deg,pitch_deg,roll_deg,"
       "start_east_m,start_north_m,start_height_m,start_heading_deg,start_pitch_deg,start_roll_deg,"
       "heading_error_deg,pitch_error_deg,roll_error_deg,position_error_m,extract_ms,clean_ms,"
-      "match_ms,plain_l1_before_px,plain_l1_after_px,reason\n";
+      "match_ms,plain_l1_before_px,plain_l1_after_px,l1_truth_px,plain_l1_truth_px,method,"
+      "reason\n";
   for (const SkylineFrameResult& f : frames) {
     Row row;
-    row.Text(f.id).Text(f.status).Add(f.before_px, 2).Add(f.after_px, 2);
+    row.Text(f.id).Text(f.status).Add(Used(f.by_sensors), 2).Add(Used(f.at_best), 2);
     AddPose(f.pose, row);
     AddPose(f.start, row);
     if (f.pose && f.truth) {
@@ -99,8 +113,9 @@ std::string SkylineFramesCsv(const std::vector<SkylineFrameResult>& frames) {
       for (int i = 0; i < 4; ++i) row.Add(std::nullopt, 0);
     }
     row.Add(f.times.extract_ms, 3).Add(f.times.clean_ms, 3).Add(f.times.match_ms, 3);
-    row.Add(f.plain_before_px, 2).Add(f.plain_after_px, 2);
-    csv += row.Text(f.reason).Line();
+    row.Add(Plain(f.by_sensors), 2).Add(Plain(f.at_best), 2);
+    row.Add(Used(f.at_truth), 2).Add(Plain(f.at_truth), 2);
+    csv += row.Text(f.method).Text(f.reason).Line();
   }
   return csv;
 }
@@ -118,12 +133,11 @@ SkylineSummary Summarize(const std::vector<SkylineFrameResult>& frames) {
     }
     if (!f.pose) continue;
     ++s.matched;
-    s.before_px += f.before_px.value_or(0.0);
-    s.after_px += f.after_px.value_or(0.0);
-    s.plain_before_px += f.plain_before_px.value_or(0.0);
-    s.plain_after_px += f.plain_after_px.value_or(0.0);
+    AddTo(s.by_sensors, f.by_sensors);
+    AddTo(s.at_best, f.at_best);
     if (!f.truth || !f.start) continue;
     ++s.with_truth;
+    AddTo(s.at_truth, f.at_truth);
     const ViewAngles start = AngleErrors(*f.start, *f.truth);
     const ViewAngles end = AngleErrors(*f.pose, *f.truth);
     s.start_heading_deg += std::abs(start.heading_deg);
@@ -134,9 +148,12 @@ SkylineSummary Summarize(const std::vector<SkylineFrameResult>& frames) {
     if (count > 0) sum /= static_cast<double>(count);
   };
   for (double* sum : {&s.times.extract_ms, &s.times.clean_ms, &s.times.match_ms}) mean(*sum, timed);
-  for (double* sum : {&s.before_px, &s.after_px, &s.plain_before_px, &s.plain_after_px}) {
-    mean(*sum, s.matched);
+  for (SkylineDistances* sum : {&s.by_sensors, &s.at_best}) {
+    mean(sum->used_px, s.matched);
+    mean(sum->plain_px, s.matched);
   }
+  mean(s.at_truth.used_px, s.with_truth);
+  mean(s.at_truth.plain_px, s.with_truth);
   for (double* sum : {&s.start_heading_deg, &s.heading_deg, &s.tilt_deg}) mean(*sum, s.with_truth);
   return s;
 }

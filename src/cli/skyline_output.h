@@ -18,10 +18,10 @@ struct SkylineFrameResult {
   std::string id;
   std::string status;  // ok, missing_picture, missing_sensors, or NameOf(SkylineMatchStatus)
   std::string reason;
-  std::optional<double> before_px;  // L1 [px at 640]
-  std::optional<double> after_px;
-  std::optional<double> plain_before_px;  // the same over all columns, as in the paper
-  std::optional<double> plain_after_px;
+  std::string method;  // as match.method; a key frame's is 6dof. Empty: not matched
+  std::optional<SkylineDistances> by_sensors;
+  std::optional<SkylineDistances> at_best;
+  std::optional<SkylineDistances> at_truth;  // what trees, details and the extraction leave
   std::optional<Pose> start;  // world
   std::optional<Pose> pose;   // world; absent unless ok
   std::optional<Pose> truth;  // world
@@ -35,15 +35,14 @@ std::string SkylineFramesCsv(const std::vector<SkylineFrameResult>& frames);
 struct SkylineSummary {
   std::size_t frames = 0;
   std::size_t matched = 0;
-  double before_px = 0.0;
-  double after_px = 0.0;
-  double plain_before_px = 0.0;
-  double plain_after_px = 0.0;
+  SkylineDistances by_sensors;
+  SkylineDistances at_best;
   SkylineFrameTimes times;         // over all frames with a picture
   std::size_t with_truth = 0;      // of the matched
   double start_heading_deg = 0.0;  // mean errors of the start and of the result, absolute
   double heading_deg = 0.0;
-  double tilt_deg = 0.0;  // larger of pitch and roll
+  double tilt_deg = 0.0;      // larger of pitch and roll
+  SkylineDistances at_truth;  // means over those with a truth
 };
 SkylineSummary Summarize(const std::vector<SkylineFrameResult>& frames);
 

@@ -46,17 +46,18 @@ ReportRun RunOf(const SkylineFrameResult& frame) {
     run.rotation_deg = error.rotation_deg;
     run.outcome = error.rotation_deg <= kRightDeg ? ReportOutcome::kRight : ReportOutcome::kWrong;
   }
-  const auto add = [&](const char* name, const std::optional<double>& value, const char* format) {
-    if (value) run.facts.emplace_back(name, Text(format, *value));
+  const auto add = [&](const char* name, const std::optional<SkylineDistances>& d) {
+    if (!d) return;
+    run.facts.emplace_back(name, Text("%.1f px; all columns: %.1f px", d->used_px, d->plain_px));
   };
   run.facts = {{"status", frame.status}};
-  add("L1 by the sensors", frame.before_px, "%.1f px");
-  add("L1 after the match", frame.after_px, "%.1f px");
-  add("… over all columns, by the sensors", frame.plain_before_px, "%.1f px");
-  add("… over all columns, after the match", frame.plain_after_px, "%.1f px");
-  add("extraction", frame.times.extract_ms, "%.1f ms");
-  add("clean-up", frame.times.clean_ms, "%.1f ms");
-  add("match", frame.times.match_ms, "%.1f ms");
+  if (!frame.method.empty()) run.facts.emplace_back("method", frame.method);
+  add("L1 by the sensors", frame.by_sensors);
+  add("L1 after the match", frame.at_best);
+  add("L1 at the true pose", frame.at_truth);
+  run.facts.emplace_back("extraction", Text("%.1f ms", frame.times.extract_ms));
+  run.facts.emplace_back("clean-up, match",
+                         Text("%.1f ms, %.1f ms", frame.times.clean_ms, frame.times.match_ms));
   return run;
 }
 
@@ -73,6 +74,10 @@ ReportSeries SeriesOf(const char* name,
     series.labels.push_back(frames[i].id);
   }
   return series;
+}
+
+std::optional<double> Used(const std::optional<SkylineDistances>& distances) {
+  return distances ? std::optional<double>(distances->used_px) : std::nullopt;
 }
 
 std::optional<double> RotationError(const std::optional<Pose>& pose,
@@ -104,9 +109,9 @@ void AddPlots(const std::vector<SkylineFrameResult>& frames,
                "were not "
                "matched.",
                "L1 [px at 640]",
-               {SeriesOf("by the sensors", frames, [](const auto& f) { return f.before_px; }),
+               {SeriesOf("by the sensors", frames, [](const auto& f) { return Used(f.by_sensors); }),
                 SeriesOf("after the match", frames, [](const auto& f) {
-                  return f.pose ? f.after_px : std::optional<double>();
+                  return f.pose ? Used(f.at_best) : std::nullopt;
                 })}));
   }
   if (summary.with_truth > 0) {
@@ -163,7 +168,7 @@ ReportData SkylineReport::Make(const std::vector<SkylineFrameResult>& frames) co
                 {"matched", std::to_string(summary.matched)}};
   if (summary.matched > 0) {
     data.facts.emplace_back("distance, sensors → match",
-                            Text("%.1f → %.1f px", summary.before_px, summary.after_px));
+                            Text("%.1f → %.1f px", summary.by_sensors.used_px, summary.at_best.used_px));
   }
   if (summary.with_truth > 0) {
     data.facts.emplace_back("heading error, sensors → match",

@@ -334,6 +334,20 @@ SkylineMatch SkylineMatchNamed(const std::string& name) {
   throw InputError("", "match.method", '"' + name + '"', "2d, 2x2d, 3d or 6dof");
 }
 
+const char* NameOf(SkylineMatch method) {
+  switch (method) {
+    case SkylineMatch::k2d:
+      return "2d";
+    case SkylineMatch::k2x2d:
+      return "2x2d";
+    case SkylineMatch::k3d:
+      return "3d";
+    case SkylineMatch::k6dof:
+      return "6dof";
+  }
+  return "";
+}
+
 const char* NameOf(SkylineMatchStatus status) {
   switch (status) {
     case SkylineMatchStatus::kOk:

@@ -72,6 +72,8 @@ struct SkylineMatchOptions {
 
 // Throws InputError for another name.
 SkylineMatch SkylineMatchNamed(const std::string& name);
+// "2d", "2x2d", "3d" or "6dof".
+const char* NameOf(SkylineMatch method);
 
 enum class SkylineMatchStatus : std::uint8_t {
   kOk,

@@ -85,9 +85,6 @@ SkylineFrame SkylineTracker::Track(const cv::Mat& bgr,
   frame.times.clean_ms = MillisecondsSince(extracted);
 
   const Clock::time_point cleaned = Clock::now();
-  const auto source = [this](const Eigen::Vector3d& position, const Sector& sector) {
-    return SkylineDirections(scene_.SkylineFrom(position, sector));
-  };
   const bool from_last = options_.start == "last";
   SkylineMatchOptions match = options_.match;
   if (from_last && options_.keyframe_every > 0) {
@@ -98,18 +95,33 @@ SkylineFrame SkylineTracker::Track(const cv::Mat& bgr,
     ++frames_since_key_;
   }
   frame.start = from_last && correction_ ? Apply(*correction_, sensors) : sensors;
-  frame.match = MatchSkyline(l1, source, frame.start, match);
+  frame.method = SkylineMatchNamed(match.method);
+  frame.match = MatchSkyline(l1, Source(), frame.start, match);
   frame.times.match_ms = MillisecondsSince(cleaned);
 
   correction_.reset();
   if (frame.match.pose) correction_ = Between(sensors, *frame.match.pose);
-  frame.sensors_distance_px = DistanceAt(l1, source, sensors, options_.match);
-  SkylineL1Options plain_options = options_.l1;
-  plain_options.robust = false;
-  const SkylineL1 plain(frame.skyline, camera, plain_options);
-  frame.plain_before_px = DistanceAt(plain, source, sensors, options_.match);
-  frame.plain_after_px = DistanceAt(plain, source, frame.match.best, options_.match);
+  frame.by_sensors = DistancesAt(frame.skyline, camera, sensors);
+  frame.at_best = DistancesAt(frame.skyline, camera, frame.match.best);
   return frame;
+}
+
+SkylineSource SkylineTracker::Source() const {
+  return [this](const Eigen::Vector3d& position, const Sector& sector) {
+    return SkylineDirections(scene_.SkylineFrom(position, sector));
+  };
+}
+
+SkylineDistances SkylineTracker::DistancesAt(const Skyline& skyline,
+                                             const PinholeCamera& camera,
+                                             const Pose& cam_from_local) const {
+  SkylineL1Options plain = options_.l1;
+  plain.robust = false;
+  const auto at_pose = [&](const SkylineL1Options& l1) {
+    return DistanceAt(
+        SkylineL1(skyline, camera, l1), Source(), cam_from_local, options_.match);
+  };
+  return {at_pose(options_.l1), at_pose(plain)};
 }
 
 }  // namespace ridgeline

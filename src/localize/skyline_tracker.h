@@ -44,14 +44,18 @@ struct SkylineFrameTimes {
   double Total() const { return extract_ms + clean_ms + match_ms; }
 };
 
+// L1 distances between the skyline of a picture and the model's at a pose [px at 640].
+struct SkylineDistances {
+  double used_px = 0.0;   // as the options say
+  double plain_px = 0.0;  // the paper's, plainly over all columns, trees and all
+};
+
 struct SkylineFrame {
-  Skyline skyline;                   // as extracted, in pixels of the picture
-  Pose start;                        // cam_from_local
-  double sensors_distance_px = 0.0;  // L1 at the pose by the sensors [px at 640]
-  // The paper's L1, plainly over all columns, trees and all: at the pose by the sensors and at the
-  // best one [px at 640].
-  double plain_before_px = 0.0;
-  double plain_after_px = 0.0;
+  Skyline skyline;  // as extracted, in pixels of the picture
+  Pose start;       // cam_from_local
+  SkylineMatch method = SkylineMatch::k3d;
+  SkylineDistances by_sensors;  // at the pose by the sensors
+  SkylineDistances at_best;     // at the best pose found
   SkylineMatchResult match;
   SkylineFrameTimes times;
 };
@@ -67,7 +71,14 @@ class SkylineTracker {
   // @param bgr  CV_8UC3, without distortion.
   SkylineFrame Track(const cv::Mat& bgr, const PinholeCamera& camera, const Pose& sensors);
 
+  // Distances of a skyline that was found in a picture of this camera, e.g. at the true pose.
+  SkylineDistances DistancesAt(const Skyline& skyline,
+                               const PinholeCamera& camera,
+                               const Pose& cam_from_local) const;
+
  private:
+  SkylineSource Source() const;
+
   const Scene& scene_;
   const SkylineTrackOptions options_;
   // What the last good match added to the sensors' pose.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 #include <vector>
@@ -21,6 +22,10 @@ constexpr double kLeastShare = 0.0005;
 constexpr double kSameColours = 0.6;
 // So are those whose likeliness falls behind the likeliest one's by no more than this.
 constexpr double kAsLikely = 0.5;
+// Largest contrast [grey values] and least log odds of clouds beside the sky.
+constexpr std::array<std::uint8_t, 4> kCloudContrasts{12, 8, 6, 4};
+constexpr float kLeastCloudOdds = -1.5f;
+constexpr double kLeastMeanOdds = 0.0;
 // Labels while regions are told apart: closed, open but not reached yet, and the regions' own.
 constexpr std::uint8_t kClosed = 0, kOpen = 1, kFirstRegion = 2, kLastRegion = 255;
 
@@ -40,17 +45,15 @@ struct Regions {
   }
 };
 
-// Takes a connected region from `labels`, starting in column x of the upper border. Gives the
-// pixels as row-major indices.
-void Fill(int x, std::uint8_t label, cv::Mat& labels, std::vector<int>& pixels) {
+// Adds to `pixels` (row-major indices) all pixels of value `open` that are connected with them,
+// setting these to `taken`.
+void Spread(std::uint8_t open, std::uint8_t taken, cv::Mat& labels, std::vector<int>& pixels) {
   const int columns = labels.cols;
   const int count = columns * labels.rows;
   std::uint8_t* l = labels.ptr();
-  pixels.assign(1, x);
-  l[x] = label;
   const auto visit = [&](int i) {
-    if (l[i] != kOpen) return;
-    l[i] = label;
+    if (l[i] != open) return;
+    l[i] = taken;
     pixels.push_back(i);
   };
   for (std::size_t next = 0; next < pixels.size(); ++next) {
@@ -63,24 +66,55 @@ void Fill(int x, std::uint8_t label, cv::Mat& labels, std::vector<int>& pixels) 
   }
 }
 
-// High for a large region of high mean log odds, that has no holes (as windows make) and does not
-// reach deep into the picture.
-double Likeliness(const std::vector<int>& pixels, const cv::Mat& log_odds) {
-  std::vector<int> bottom(static_cast<std::size_t>(log_odds.cols), -1);
-  const float* odds = log_odds.ptr<float>();
-  double sum = 0.0;
+// Takes a connected region from `labels`, starting in column x of the upper border.
+void Fill(int x, std::uint8_t label, cv::Mat& labels, std::vector<int>& pixels) {
+  pixels.assign(1, x);
+  labels.ptr()[x] = label;
+  Spread(kOpen, label, labels, pixels);
+}
+
+// The sky seeds and what is connected with them where `open` is not 0; small holes are filled.
+std::vector<int> ReachedFrom(const cv::Mat& seeds, const cv::Mat& open) {
+  cv::Mat labels(seeds.size(), CV_8U, cv::Scalar(kClosed));
+  labels.setTo(kOpen, open);
+  std::vector<int> pixels;
+  for (int i = 0; i < static_cast<int>(seeds.total()); ++i) {
+    if (seeds.ptr()[i] != kSkySeed) continue;
+    pixels.push_back(i);
+    labels.ptr()[i] = kFirstRegion;
+  }
+  Spread(kOpen, kFirstRegion, labels, pixels);
+  cv::Mat region = labels == kFirstRegion;
+  cv::morphologyEx(
+      region, region, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_RECT, {3, 3}));
+  pixels.clear();
+  for (int i = 0; i < static_cast<int>(region.total()); ++i) {
+    if (region.ptr()[i] != 0) pixels.push_back(i);
+  }
+  return pixels;
+}
+
+// High for a large region that has no holes (as windows make) and does not reach deep into the
+// picture.
+double Compactness(const std::vector<int>& pixels, const cv::Size& size) {
+  std::vector<int> bottom(static_cast<std::size_t>(size.width), -1);
   for (const int p : pixels) {
-    sum += odds[p];
-    int& b = bottom[static_cast<std::size_t>(p % log_odds.cols)];
-    b = std::max(b, p / log_odds.cols);
+    int& b = bottom[static_cast<std::size_t>(p % size.width)];
+    b = std::max(b, p / size.width);
   }
   double filled = 0.0;
   for (const int b : bottom) filled += b + 1;
   const double deepest = *std::max_element(bottom.begin(), bottom.end());
   const double area = static_cast<double>(pixels.size());
-  return sum / area + 4.0 * (area / filled - 1.0) -
-         2.5 * std::max(0.0, deepest / log_odds.rows - 0.5) +
-         0.5 * std::log(area / static_cast<double>(log_odds.total()));
+  return 4.0 * (area / filled - 1.0) - 2.5 * std::max(0.0, deepest / size.height - 0.5) +
+         0.5 * std::log(area / size.area());
+}
+
+// High for a compact region of high mean log odds.
+double Likeliness(const std::vector<int>& pixels, const cv::Mat& log_odds) {
+  double sum = 0.0;
+  for (const int p : pixels) sum += log_odds.ptr<float>()[p];
+  return sum / static_cast<double>(pixels.size()) + Compactness(pixels, log_odds.size());
 }
 
 Regions SmoothRegionsAtTop(const cv::Mat& log_odds, const cv::Mat& contrast, std::uint8_t smooth) {
@@ -108,6 +142,27 @@ Regions SmoothRegionsAtTop(const cv::Mat& log_odds, const cv::Mat& contrast, std
   return regions;
 }
 
+// What is reached from the seeds in small steps and is not unlike sky: clouds between and below the
+// blue, mostly. Of several bounds on the steps, the one whose region is largest and has the fewest
+// holes (windows). Empty if even that is unlike sky on the whole.
+std::vector<int> Clouds(const cv::Mat& log_odds, const cv::Mat& contrast, const cv::Mat& seeds) {
+  std::vector<int> best;
+  double most = -std::numeric_limits<double>::infinity();
+  for (const std::uint8_t step : kCloudContrasts) {
+    const cv::Mat open = (contrast <= step) & (log_odds > kLeastCloudOdds);
+    std::vector<int> pixels = ReachedFrom(seeds, open);
+    double odds = 0.0;
+    for (const int p : pixels) odds += log_odds.ptr<float>()[p];
+    const double area = static_cast<double>(pixels.size());
+    if (odds < kLeastMeanOdds * area) continue;
+    const double value = Compactness(pixels, log_odds.size());
+    if (value <= most) continue;
+    most = value;
+    best = std::move(pixels);
+  }
+  return best;
+}
+
 }  // namespace
 
 cv::Mat SkySeeds(const cv::Mat& log_odds, const SkyFeatures& features) {
@@ -132,9 +187,10 @@ cv::Mat SkySeeds(const cv::Mat& log_odds, const SkyFeatures& features) {
   }
   cv::Mat seeds;
   cv::LUT(regions.labels, cv::Mat(1, 256, CV_8U, meaning.data()), seeds);
+  for (const int p : Clouds(log_odds, features.contrast, seeds)) seeds.ptr()[p] = kSkySeed;
   cv::Mat grown;
-  cv::dilate(seeds, grown, cv::getStructuringElement(cv::MORPH_RECT, {5, 5}));
-  seeds.setTo(kMixedPixel, grown != seeds);
+  cv::dilate(seeds == kSkySeed, grown, cv::getStructuringElement(cv::MORPH_RECT, {5, 5}));
+  seeds.setTo(kMixedPixel, grown & (seeds == kNotSkySeed));
   return seeds;
 }
 
