@@ -22,7 +22,9 @@ constexpr double kLeastShare = 0.0005;
 constexpr double kSameColours = 0.6;
 // So are those whose likeliness falls behind the likeliest one's by no more than this.
 constexpr double kAsLikely = 0.5;
-// Largest contrast [grey values] and least log odds of clouds beside the sky.
+// But not if less of them is filled: bright facades have windows.
+constexpr double kLeastFilled = 0.85;
+// Largest contrasts [grey values] and least log odds of clouds beside the sky.
 constexpr std::array<std::uint8_t, 4> kCloudContrasts{12, 8, 6, 4};
 constexpr float kLeastCloudOdds = -1.5f;
 constexpr double kLeastMeanOdds = 0.0;
@@ -32,6 +34,7 @@ constexpr std::uint8_t kClosed = 0, kOpen = 1, kFirstRegion = 2, kLastRegion = 2
 struct Region {
   std::uint8_t label = 0;
   double likeliness = 0.0;
+  double filled = 0.0;  // share without holes, as Shape's
 };
 
 struct Regions {
@@ -94,27 +97,36 @@ std::vector<int> ReachedFrom(const cv::Mat& seeds, const cv::Mat& open) {
   return pixels;
 }
 
-// High for a large region that has no holes (as windows make) and does not reach deep into the
-// picture.
-double Compactness(const std::vector<int>& pixels, const cv::Size& size) {
+// Form of a region.
+struct Shape {
+  double area = 0.0;     // share of the picture
+  double filled = 0.0;   // share of the pixels above its lowest in each column: 1 without holes
+  double deepest = 0.0;  // lowest row, as a share of the height
+};
+
+Shape ShapeOf(const std::vector<int>& pixels, const cv::Size& size) {
   std::vector<int> bottom(static_cast<std::size_t>(size.width), -1);
   for (const int p : pixels) {
     int& b = bottom[static_cast<std::size_t>(p % size.width)];
     b = std::max(b, p / size.width);
   }
-  double filled = 0.0;
-  for (const int b : bottom) filled += b + 1;
-  const double deepest = *std::max_element(bottom.begin(), bottom.end());
+  double above = 0.0;
+  for (const int b : bottom) above += b + 1;
   const double area = static_cast<double>(pixels.size());
-  return 4.0 * (area / filled - 1.0) - 2.5 * std::max(0.0, deepest / size.height - 0.5) +
-         0.5 * std::log(area / size.area());
+  const double deepest = *std::max_element(bottom.begin(), bottom.end());
+  return {area / size.area(), area / above, deepest / size.height};
 }
 
-// High for a compact region of high mean log odds.
-double Likeliness(const std::vector<int>& pixels, const cv::Mat& log_odds) {
+// High for a large region that has no holes (as windows make) and does not reach deep into the
+// picture.
+double Compactness(const Shape& s) {
+  return 4.0 * (s.filled - 1.0) - 2.5 * std::max(0.0, s.deepest - 0.5) + 0.5 * std::log(s.area);
+}
+
+double MeanOdds(const std::vector<int>& pixels, const cv::Mat& log_odds) {
   double sum = 0.0;
   for (const int p : pixels) sum += log_odds.ptr<float>()[p];
-  return sum / static_cast<double>(pixels.size()) + Compactness(pixels, log_odds.size());
+  return sum / static_cast<double>(pixels.size());
 }
 
 Regions SmoothRegionsAtTop(const cv::Mat& log_odds, const cv::Mat& contrast, std::uint8_t smooth) {
@@ -136,7 +148,8 @@ Regions SmoothRegionsAtTop(const cv::Mat& log_odds, const cv::Mat& contrast, std
       for (const int p : pixels) regions.labels.ptr()[p] = kClosed;
       continue;
     }
-    regions.list.push_back({label, Likeliness(pixels, log_odds)});
+    const Shape shape = ShapeOf(pixels, log_odds.size());
+    regions.list.push_back({label, MeanOdds(pixels, log_odds) + Compactness(shape), shape.filled});
     ++label;
   }
   return regions;
@@ -151,11 +164,8 @@ std::vector<int> Clouds(const cv::Mat& log_odds, const cv::Mat& contrast, const 
   for (const std::uint8_t step : kCloudContrasts) {
     const cv::Mat open = (contrast <= step) & (log_odds > kLeastCloudOdds);
     std::vector<int> pixels = ReachedFrom(seeds, open);
-    double odds = 0.0;
-    for (const int p : pixels) odds += log_odds.ptr<float>()[p];
-    const double area = static_cast<double>(pixels.size());
-    if (odds < kLeastMeanOdds * area) continue;
-    const double value = Compactness(pixels, log_odds.size());
+    if (MeanOdds(pixels, log_odds) < kLeastMeanOdds) continue;
+    const double value = Compactness(ShapeOf(pixels, log_odds.size()));
     if (value <= most) continue;
     most = value;
     best = std::move(pixels);
@@ -180,6 +190,7 @@ cv::Mat SkySeeds(const cv::Mat& log_odds, const SkyFeatures& features) {
   const ColourHistogram colours = ColoursOf(features, regions.labels, best.label);
   std::array<std::uint8_t, 256> meaning{};  // all kNotSkySeed
   for (const Region& r : regions.list) {
+    if (r.label != best.label && r.filled < kLeastFilled) continue;
     const bool sky =
         r.likeliness > best.likeliness - kAsLikely ||
         ColourOverlap(colours, ColoursOf(features, regions.labels, r.label)) > kSameColours;
