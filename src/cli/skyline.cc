@@ -146,6 +146,7 @@ SkylineFrameResult ResultOf(const SkylineFrame& frame,
   result.method = NameOf(frame.method);
   result.by_sensors = frame.by_sensors;
   result.at_best = frame.at_best;
+  if (frame.match.evaluations > 0) result.heading_sigma_deg = frame.match.heading_sigma_deg;
   result.start = known.start;
   if (frame.match.pose) result.pose = to_world(*frame.match.pose);
   result.times = frame.times;

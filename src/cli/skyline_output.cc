@@ -98,8 +98,8 @@ std::string SkylineFramesCsv(const std::vector<SkylineFrameResult>& frames) {
       "id,status,l1_before_px,l1_after_px,east_m,north_m,height_m,heading_deg,pitch_deg,roll_deg,"
       "start_east_m,start_north_m,start_height_m,start_heading_deg,start_pitch_deg,start_roll_deg,"
       "heading_error_deg,pitch_error_deg,roll_error_deg,position_error_m,extract_ms,clean_ms,"
-      "match_ms,plain_l1_before_px,plain_l1_after_px,l1_truth_px,plain_l1_truth_px,method,"
-      "reason\n";
+      "match_ms,plain_l1_before_px,plain_l1_after_px,l1_truth_px,plain_l1_truth_px,"
+      "heading_sigma_deg,method,reason\n";
   for (const SkylineFrameResult& f : frames) {
     Row row;
     row.Text(f.id).Text(f.status).Add(Used(f.by_sensors), 2).Add(Used(f.at_best), 2);
@@ -115,6 +115,7 @@ std::string SkylineFramesCsv(const std::vector<SkylineFrameResult>& frames) {
     row.Add(f.times.extract_ms, 3).Add(f.times.clean_ms, 3).Add(f.times.match_ms, 3);
     row.Add(Plain(f.by_sensors), 2).Add(Plain(f.at_best), 2);
     row.Add(Used(f.at_truth), 2).Add(Plain(f.at_truth), 2);
+    row.Add(f.heading_sigma_deg, 3);
     csv += row.Text(f.method).Text(f.reason).Line();
   }
   return csv;

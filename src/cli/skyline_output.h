@@ -22,6 +22,7 @@ struct SkylineFrameResult {
   std::optional<SkylineDistances> by_sensors;
   std::optional<SkylineDistances> at_best;
   std::optional<SkylineDistances> at_truth;  // what trees, details and the extraction leave
+  std::optional<double> heading_sigma_deg;
   std::optional<Pose> start;  // world
   std::optional<Pose> pose;   // world; absent unless ok
   std::optional<Pose> truth;  // world

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "localize/downhill_simplex.h"
+#include "localize/skyline_certainty.h"
 #include "localize/skyline_shift.h"
 
 namespace ridgeline {
@@ -195,6 +196,15 @@ class Matcher {
     return false;
   }
 
+  double HeadingSigma(const Pose& pose, double distance, bool position_matched) const {
+    const SkylinePrior prior{options_.heading_sigma_deg,
+                             options_.tilt_sigma_deg,
+                             options_.position_sigma_m,
+                             position_matched};
+    const auto look = [this](const Eigen::Vector3d& p) { return source_(p, sector_); };
+    return HeadingSigmaDeg(real_, look, pose, distance, prior);
+  }
+
   int evaluations() const { return evaluations_; }
 
  private:
@@ -290,6 +300,7 @@ void SkylineMatchOptions::Visit(OptionVisitor& v) {
   v.Field("height_sigma_m", height_sigma_m);
   v.Field("max_distance_px", max_distance_px);
   v.Field("ambiguous_ratio", ambiguous_ratio);
+  v.Field("max_heading_sigma_deg", max_heading_sigma_deg);
   v.Field("max_heading_deg", max_heading_deg);
   v.Field("max_tilt_deg", max_tilt_deg);
   v.Field("max_shift_m", max_shift_m);
@@ -315,6 +326,8 @@ void SkylineMatchOptions::Validate() const {
                                                      {"position_sigma_m", position_sigma_m},
                                                      {"height_sigma_m", height_sigma_m},
                                                      {"max_distance_px", max_distance_px},
+                                                     {"max_heading_sigma_deg",
+                                                      max_heading_sigma_deg},
                                                      {"max_heading_deg", max_heading_deg},
                                                      {"max_tilt_deg", max_tilt_deg},
                                                      {"max_shift_m", max_shift_m}};
@@ -392,9 +405,12 @@ SkylineMatchResult MatchSkyline(const SkylineL1& real,
   if (!matcher.SeesModel()) {
     return failed(SkylineMatchStatus::kNoModel, "no building of the model rises above the horizon");
   }
-  result.best = Matched(matcher, start, SkylineMatchNamed(options.method));
+  const SkylineMatch method = SkylineMatchNamed(options.method);
+  result.best = Matched(matcher, start, method);
   result.distance_after_px = matcher.DistanceAt(result.best);
   result.evaluations = matcher.evaluations();
+  result.heading_sigma_deg =
+      matcher.HeadingSigma(result.best, result.distance_after_px, method == SkylineMatch::k6dof);
   if (AtLimit(start, result.best, options)) {
     return failed(SkylineMatchStatus::kFarFromStart,
                   "the best pose lies at the limit of what the sensors can be wrong by");
@@ -404,6 +420,10 @@ SkylineMatchResult MatchSkyline(const SkylineL1& real,
   }
   if (matcher.Ambiguous(result.best, result.distance_after_px)) {
     return failed(SkylineMatchStatus::kAmbiguous, "another heading fits about as well");
+  }
+  if (result.heading_sigma_deg > options.max_heading_sigma_deg) {
+    return failed(SkylineMatchStatus::kAmbiguous,
+                  "the heading is not certain: a position off as the sensors are would turn it too far");
   }
   result.status = SkylineMatchStatus::kOk;
   result.pose = result.best;

@@ -61,6 +61,8 @@ struct SkylineMatchOptions {
   // A match is ambiguous if a heading more than scan_step_deg * 2 away on the grid is no worse than
   // this many times the best distance, both increased by 1 px.
   double ambiguous_ratio = 1.15;
+  // So is one whose heading is known no better than this, standard deviation [deg].
+  double max_heading_sigma_deg = 1.25;
   double max_heading_deg = 30.0;
   double max_tilt_deg = 12.0;
   double max_shift_m = 20.0;
@@ -81,7 +83,7 @@ enum class SkylineMatchStatus : std::uint8_t {
   kNoModel,       // no building reaches above the horizon in this direction
   kFarFromStart,  // the best pose is as far from the start as the limits allow
   kPoorMatch,     // the skylines differ by more than max_distance_px
-  kAmbiguous,     // another heading fits as well
+  kAmbiguous,     // another heading fits as well, or the skyline does not tell it
 };
 
 // "ok", "unusable", "no_model", "far_from_start", "poor_match", "ambiguous".
@@ -94,6 +96,7 @@ struct SkylineMatchResult {
   Pose best;                 // the best pose found, believed or not; the start if none was sought
   double distance_before_px = 0.0;  // [px at 640]
   double distance_after_px = 0.0;
+  double heading_sigma_deg = 0.0;  // of `best`; 0 if none was sought
   int evaluations = 0;
 };
 

@@ -8,6 +8,9 @@
 namespace ridgeline {
 namespace {
 
+// How well the position of the last good frame holds for the next one [m].
+constexpr double kCarriedPositionSigmaM = 1.5;
+
 using Clock = std::chrono::steady_clock;
 
 double MillisecondsSince(Clock::time_point start) {
@@ -86,17 +89,24 @@ SkylineFrame SkylineTracker::Track(const cv::Mat& bgr,
 
   const Clock::time_point cleaned = Clock::now();
   const bool from_last = options_.start == "last";
-  SkylineMatchOptions match = options_.match;
-  if (from_last && options_.keyframe_every > 0) {
-    if (!correction_ || frames_since_key_ >= options_.keyframe_every) {
-      match.method = "6dof";
-      frames_since_key_ = 0;
-    }
+  const bool keys = from_last && options_.keyframe_every > 0;
+  frame.start = from_last && correction_ ? Apply(*correction_, sensors) : sensors;
+  frame.method = SkylineMatchNamed(options_.match.method);
+  if (!keys || (correction_ && frames_since_key_ < options_.keyframe_every)) {
+    SkylineMatchOptions match = options_.match;
+    // The last frame's position, not the sensors'.
+    if (keys) match.position_sigma_m = kCarriedPositionSigmaM;
+    frame.match = MatchSkyline(l1, Source(), frame.start, match);
     ++frames_since_key_;
   }
-  frame.start = from_last && correction_ ? Apply(*correction_, sensors) : sensors;
-  frame.method = SkylineMatchNamed(match.method);
-  frame.match = MatchSkyline(l1, Source(), frame.start, match);
+  // A frame that three angles cannot match is a key frame too.
+  if (keys && !frame.match.pose) {
+    SkylineMatchOptions match = options_.match;
+    match.method = "6dof";
+    frame.method = SkylineMatch::k6dof;
+    frame.match = MatchSkyline(l1, Source(), frame.start, match);
+    frames_since_key_ = 1;
+  }
   frame.times.match_ms = MillisecondsSince(cleaned);
 
   correction_.reset();

@@ -21,8 +21,8 @@ struct SkylineTrackOptions {
   // Where a frame's match begins: "sensors", or "last": the sensors with what the last good match
   // corrected (the paper's outlook), since their errors drift slowly.
   std::string start = "last";
-  // With start "last": the first of so many frames, and every frame after a failure, is matched in
-  // all six degrees of freedom, whatever match.method says for the others; 0: none.
+  // With start "last": the first of so many frames, and every frame that match.method cannot match,
+  // is matched in all six degrees of freedom; 0: none.
   int keyframe_every = 5;
   SkylineOptions skyline;
   CannySkylineOptions canny;

@@ -65,6 +65,8 @@ class SkylineMatcher : public ::testing::Test {
     SkylineMatchOptions options;
     options.method = method;
     options.sensor_weight_px = 0.02;
+    // With three angles the position is known: surveyed, or shown by the user on a map.
+    if (method != "6dof") options.position_sigma_m = 0.2;
     const SkylineL1 l1(RealSkyline(truth), Camera(), SkylineL1Options{});
     return MatchSkyline(l1, Source(), start, options);
   }
