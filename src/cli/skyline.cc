@@ -243,15 +243,16 @@ void Report(const SkylineSummary& s, const std::string& out, bool matched, const
                 s.times.match_ms);
   context.Print(line);
   if (s.with_truth == 0) return;
-  std::snprintf(line,
-                sizeof line,
-                "heading error %.2f deg -> %.2f deg, tilt error %.2f deg; L1 at the true poses %.1f "
-                "px (all columns: %.1f)",
-                s.start_heading_deg,
-                s.heading_deg,
-                s.tilt_deg,
-                s.at_truth.used_px,
-                s.at_truth.plain_px);
+  std::snprintf(
+      line,
+      sizeof line,
+      "heading error %.2f deg -> %.2f deg, tilt error %.2f deg; L1 at the true poses %.1f "
+      "px (all columns: %.1f)",
+      s.start_heading_deg,
+      s.heading_deg,
+      s.tilt_deg,
+      s.at_truth.used_px,
+      s.at_truth.plain_px);
   context.Print(line);
 }
 

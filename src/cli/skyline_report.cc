@@ -103,16 +103,16 @@ void AddPlots(const std::vector<SkylineFrameResult>& frames,
               const SkylineSummary& summary,
               ReportData& data) {
   if (summary.matched > 0) {
-    data.plots.push_back(
-        PlotOf("Distance of the skylines",
-               "Mean distance between the picture's skyline and the model's; gaps are frames that "
-               "were not "
-               "matched.",
-               "L1 [px at 640]",
-               {SeriesOf("by the sensors", frames, [](const auto& f) { return Used(f.by_sensors); }),
-                SeriesOf("after the match", frames, [](const auto& f) {
-                  return f.pose ? Used(f.at_best) : std::nullopt;
-                })}));
+    data.plots.push_back(PlotOf(
+        "Distance of the skylines",
+        "Mean distance between the picture's skyline and the model's; gaps are frames that "
+        "were not "
+        "matched.",
+        "L1 [px at 640]",
+        {SeriesOf("by the sensors", frames, [](const auto& f) { return Used(f.by_sensors); }),
+         SeriesOf("after the match", frames, [](const auto& f) {
+           return f.pose ? Used(f.at_best) : std::nullopt;
+         })}));
   }
   if (summary.with_truth > 0) {
     data.plots.push_back(
@@ -167,8 +167,9 @@ ReportData SkylineReport::Make(const std::vector<SkylineFrameResult>& frames) co
   data.facts = {{"frames", std::to_string(summary.frames)},
                 {"matched", std::to_string(summary.matched)}};
   if (summary.matched > 0) {
-    data.facts.emplace_back("distance, sensors → match",
-                            Text("%.1f → %.1f px", summary.by_sensors.used_px, summary.at_best.used_px));
+    data.facts.emplace_back(
+        "distance, sensors → match",
+        Text("%.1f → %.1f px", summary.by_sensors.used_px, summary.at_best.used_px));
   }
   if (summary.with_truth > 0) {
     data.facts.emplace_back("heading error, sensors → match",

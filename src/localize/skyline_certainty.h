@@ -19,9 +19,9 @@ struct SkylinePrior {
   bool position_matched = false;
 };
 
-// Standard deviation of the heading of a matched pose [deg]: what the distances of the columns leave
-// open, together with the other angles and the position (the height is taken as known). A corner
-// near by does not tell a turn from a step aside.
+// Standard deviation of the heading of a matched pose [deg]: what the distances of the columns
+// leave open, together with the other angles and the position (the height is taken as known). A
+// corner near by does not tell a turn from a step aside.
 //
 // @param look  Virtual skyline seen from a position (local frame), as unit vectors by azimuth.
 // @param distance_px  Distance at the pose [px at 640]: what the columns are off by.

@@ -315,22 +315,22 @@ void SkylineMatchOptions::Validate() const {
   };
   require(scan_heading_deg >= 0.0, "scan_heading_deg", scan_heading_deg, "at least 0");
   require(scan_pitch_deg >= 0.0, "scan_pitch_deg", scan_pitch_deg, "at least 0");
-  const std::pair<const char*, double> positive[] = {{"scan_step_deg", scan_step_deg},
-                                                     {"heading_step_deg", heading_step_deg},
-                                                     {"pitch_step_deg", pitch_step_deg},
-                                                     {"roll_step_deg", roll_step_deg},
-                                                     {"position_step_m", position_step_m},
-                                                     {"height_step_m", height_step_m},
-                                                     {"heading_sigma_deg", heading_sigma_deg},
-                                                     {"tilt_sigma_deg", tilt_sigma_deg},
-                                                     {"position_sigma_m", position_sigma_m},
-                                                     {"height_sigma_m", height_sigma_m},
-                                                     {"max_distance_px", max_distance_px},
-                                                     {"max_heading_sigma_deg",
-                                                      max_heading_sigma_deg},
-                                                     {"max_heading_deg", max_heading_deg},
-                                                     {"max_tilt_deg", max_tilt_deg},
-                                                     {"max_shift_m", max_shift_m}};
+  const std::pair<const char*, double> positive[] = {
+      {"scan_step_deg", scan_step_deg},
+      {"heading_step_deg", heading_step_deg},
+      {"pitch_step_deg", pitch_step_deg},
+      {"roll_step_deg", roll_step_deg},
+      {"position_step_m", position_step_m},
+      {"height_step_m", height_step_m},
+      {"heading_sigma_deg", heading_sigma_deg},
+      {"tilt_sigma_deg", tilt_sigma_deg},
+      {"position_sigma_m", position_sigma_m},
+      {"height_sigma_m", height_sigma_m},
+      {"max_distance_px", max_distance_px},
+      {"max_heading_sigma_deg", max_heading_sigma_deg},
+      {"max_heading_deg", max_heading_deg},
+      {"max_tilt_deg", max_tilt_deg},
+      {"max_shift_m", max_shift_m}};
   for (const auto& [name, value] : positive) require(value > 0.0, name, value, "more than 0");
   require(sensor_weight_px >= 0.0, "sensor_weight_px", sensor_weight_px, "at least 0");
   require(rounds >= 1, "rounds", rounds, "at least 1");
@@ -422,8 +422,9 @@ SkylineMatchResult MatchSkyline(const SkylineL1& real,
     return failed(SkylineMatchStatus::kAmbiguous, "another heading fits about as well");
   }
   if (result.heading_sigma_deg > options.max_heading_sigma_deg) {
-    return failed(SkylineMatchStatus::kAmbiguous,
-                  "the heading is not certain: a position off as the sensors are would turn it too far");
+    return failed(
+        SkylineMatchStatus::kAmbiguous,
+        "the heading is not certain: a position off as the sensors are would turn it too far");
   }
   result.status = SkylineMatchStatus::kOk;
   result.pose = result.best;

@@ -128,8 +128,7 @@ SkylineDistances SkylineTracker::DistancesAt(const Skyline& skyline,
   SkylineL1Options plain = options_.l1;
   plain.robust = false;
   const auto at_pose = [&](const SkylineL1Options& l1) {
-    return DistanceAt(
-        SkylineL1(skyline, camera, l1), Source(), cam_from_local, options_.match);
+    return DistanceAt(SkylineL1(skyline, camera, l1), Source(), cam_from_local, options_.match);
   };
   return {at_pose(options_.l1), at_pose(plain)};
 }

@@ -65,6 +65,7 @@ std::vector<float> ColourLogRatio(const SkyFeatures& features, const cv::Mat& se
   constexpr float kUnseen = 1e-4f;
   std::vector<float> ratio(sky.size());
   for (std::size_t b = 0; b < ratio.size(); ++b) {
+    if (sky[b] == 0.0f && rest[b] == 0.0f) continue;
     ratio[b] = std::log((sky[b] + kUnseen) / (rest[b] + kUnseen));
   }
   return ratio;

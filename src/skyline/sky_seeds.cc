@@ -25,7 +25,7 @@ constexpr double kAsLikely = 0.5;
 // But not if less of them is filled: bright facades have windows.
 constexpr double kLeastFilled = 0.85;
 // Largest contrasts [grey values] and least log odds of clouds beside the sky.
-constexpr std::array<std::uint8_t, 4> kCloudContrasts{12, 8, 6, 4};
+constexpr std::array<std::uint8_t, 4> kCloudContrasts{4, 6, 8, 12};
 constexpr float kLeastCloudOdds = -1.5f;
 constexpr double kLeastMeanOdds = 0.0;
 // Labels while regions are told apart: closed, open but not reached yet, and the regions' own.
@@ -76,27 +76,6 @@ void Fill(int x, std::uint8_t label, cv::Mat& labels, std::vector<int>& pixels) 
   Spread(kOpen, label, labels, pixels);
 }
 
-// The sky seeds and what is connected with them where `open` is not 0; small holes are filled.
-std::vector<int> ReachedFrom(const cv::Mat& seeds, const cv::Mat& open) {
-  cv::Mat labels(seeds.size(), CV_8U, cv::Scalar(kClosed));
-  labels.setTo(kOpen, open);
-  std::vector<int> pixels;
-  for (int i = 0; i < static_cast<int>(seeds.total()); ++i) {
-    if (seeds.ptr()[i] != kSkySeed) continue;
-    pixels.push_back(i);
-    labels.ptr()[i] = kFirstRegion;
-  }
-  Spread(kOpen, kFirstRegion, labels, pixels);
-  cv::Mat region = labels == kFirstRegion;
-  cv::morphologyEx(
-      region, region, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_RECT, {3, 3}));
-  pixels.clear();
-  for (int i = 0; i < static_cast<int>(region.total()); ++i) {
-    if (region.ptr()[i] != 0) pixels.push_back(i);
-  }
-  return pixels;
-}
-
 // Form of a region.
 struct Shape {
   double area = 0.0;     // share of the picture
@@ -104,17 +83,32 @@ struct Shape {
   double deepest = 0.0;  // lowest row, as a share of the height
 };
 
+// @param bottom  Lowest row of each column, -1: none.
+Shape ShapeOf(const std::vector<int>& bottom, double pixels, const cv::Size& size) {
+  double above = 0.0;
+  for (const int b : bottom) above += b + 1;
+  const double deepest = *std::max_element(bottom.begin(), bottom.end());
+  return {pixels / size.area(), pixels / above, deepest / size.height};
+}
+
 Shape ShapeOf(const std::vector<int>& pixels, const cv::Size& size) {
   std::vector<int> bottom(static_cast<std::size_t>(size.width), -1);
   for (const int p : pixels) {
     int& b = bottom[static_cast<std::size_t>(p % size.width)];
     b = std::max(b, p / size.width);
   }
-  double above = 0.0;
-  for (const int b : bottom) above += b + 1;
-  const double area = static_cast<double>(pixels.size());
-  const double deepest = *std::max_element(bottom.begin(), bottom.end());
-  return {area / size.area(), area / above, deepest / size.height};
+  return ShapeOf(bottom, static_cast<double>(pixels.size()), size);
+}
+
+Shape ShapeOf(const cv::Mat& mask) {
+  std::vector<int> bottom(static_cast<std::size_t>(mask.cols), -1);
+  for (int y = 0; y < mask.rows; ++y) {
+    const std::uint8_t* m = mask.ptr(y);
+    for (std::size_t x = 0; x < bottom.size(); ++x) {
+      if (m[x] != 0) bottom[x] = y;
+    }
+  }
+  return ShapeOf(bottom, cv::countNonZero(mask), mask.size());
 }
 
 // High for a large region that has no holes (as windows make) and does not reach deep into the
@@ -158,17 +152,47 @@ Regions SmoothRegionsAtTop(const cv::Mat& log_odds, const cv::Mat& contrast, std
 // What is reached from the seeds in small steps and is not unlike sky: clouds between and below the
 // blue, mostly. Of several bounds on the steps, the one whose region is largest and has the fewest
 // holes (windows). Empty if even that is unlike sky on the whole.
-std::vector<int> Clouds(const cv::Mat& log_odds, const cv::Mat& contrast, const cv::Mat& seeds) {
-  std::vector<int> best;
+cv::Mat Clouds(const cv::Mat& log_odds, const cv::Mat& contrast, const cv::Mat& seeds) {
+  const int columns = seeds.cols;
+  const int count = columns * seeds.rows;
+  const float* odds = log_odds.ptr<float>();
+  const std::uint8_t* c = contrast.ptr();
+  cv::Mat reached = seeds == kSkySeed;
+  std::uint8_t* r = reached.ptr();
+  std::vector<int> pixels, beyond;  // beyond: pixels next to them that took a larger step
+  for (int i = 0; i < count; ++i) {
+    if (r[i] != 0) pixels.push_back(i);
+  }
+  cv::Mat best;
   double most = -std::numeric_limits<double>::infinity();
+  const cv::Mat kernel = cv::getStructuringElement(cv::MORPH_RECT, {3, 3});
   for (const std::uint8_t step : kCloudContrasts) {
-    const cv::Mat open = (contrast <= step) & (log_odds > kLeastCloudOdds);
-    std::vector<int> pixels = ReachedFrom(seeds, open);
-    if (MeanOdds(pixels, log_odds) < kLeastMeanOdds) continue;
-    const double value = Compactness(ShapeOf(pixels, log_odds.size()));
-    if (value <= most) continue;
+    const auto visit = [&](int i) {
+      if (r[i] != 0 || odds[i] <= kLeastCloudOdds) return;
+      if (c[i] > step) {
+        beyond.push_back(i);
+        return;
+      }
+      r[i] = 255;
+      pixels.push_back(i);
+    };
+    for (const int i : std::exchange(beyond, {})) visit(i);
+    for (std::size_t next = 0; next < pixels.size(); ++next) {
+      const int p = pixels[next];
+      const int column = p % columns;
+      if (column > 0) visit(p - 1);
+      if (column < columns - 1) visit(p + 1);
+      if (p >= columns) visit(p - columns);
+      if (p + columns < count) visit(p + columns);
+    }
+    pixels.clear();
+    cv::Mat region;
+    cv::morphologyEx(reached, region, cv::MORPH_CLOSE, kernel);  // small holes are filled
+    if (cv::mean(log_odds, region)[0] < kLeastMeanOdds) continue;
+    const double value = Compactness(ShapeOf(region));
+    if (value < most) continue;
     most = value;
-    best = std::move(pixels);
+    best = std::move(region);
   }
   return best;
 }
@@ -187,18 +211,21 @@ cv::Mat SkySeeds(const cv::Mat& log_odds, const SkyFeatures& features) {
   if (regions.list.empty()) return cv::Mat(log_odds.size(), CV_8U, cv::Scalar(kNotSkySeed));
 
   const Region& best = regions.Likeliest();
-  const ColourHistogram colours = ColoursOf(features, regions.labels, best.label);
+  ColourHistogram colours;                  // of the likeliest region, if it is asked for
   std::array<std::uint8_t, 256> meaning{};  // all kNotSkySeed
   for (const Region& r : regions.list) {
     if (r.label != best.label && r.filled < kLeastFilled) continue;
-    const bool sky =
-        r.likeliness > best.likeliness - kAsLikely ||
-        ColourOverlap(colours, ColoursOf(features, regions.labels, r.label)) > kSameColours;
+    bool sky = r.likeliness > best.likeliness - kAsLikely;
+    if (!sky) {
+      if (colours.empty()) colours = ColoursOf(features, regions.labels, best.label);
+      sky = ColourOverlap(colours, ColoursOf(features, regions.labels, r.label)) > kSameColours;
+    }
     if (sky) meaning[r.label] = kSkySeed;
   }
   cv::Mat seeds;
   cv::LUT(regions.labels, cv::Mat(1, 256, CV_8U, meaning.data()), seeds);
-  for (const int p : Clouds(log_odds, features.contrast, seeds)) seeds.ptr()[p] = kSkySeed;
+  const cv::Mat clouds = Clouds(log_odds, features.contrast, seeds);
+  if (!clouds.empty()) seeds.setTo(kSkySeed, clouds);
   cv::Mat grown;
   cv::dilate(seeds == kSkySeed, grown, cv::getStructuringElement(cv::MORPH_RECT, {5, 5}));
   seeds.setTo(kMixedPixel, grown & (seeds == kNotSkySeed));

@@ -72,6 +72,43 @@ TEST(ExtractSkyline, CloudsAreSky) {
   EXPECT_LE(LargestDeviation(ExtractSkyline(picture, SkylineOptions{})), 0.5);
 }
 
+// Blue is seen in one corner only; the clouds below are as grey as the walls.
+TEST(ExtractSkyline, GreyCloudsBelowABlueGapAreSky) {
+  cv::Mat picture = StreetPicture(testing::kBlue);
+  for (int y = 0; y < 200; ++y) {
+    for (int x = 0; x < 640; ++x) {
+      if (y >= StreetSkyline(x)) continue;
+      const double cloud = std::clamp((y + 0.25 * x - 60.0) / 60.0, 0.0, 1.0);
+      const cv::Vec3d grey(176.0, 172.0, 168.0);
+      cv::Vec3b& p = picture.at<cv::Vec3b>(y, x);
+      for (int k = 0; k < 3; ++k) {
+        p[k] = cv::saturate_cast<std::uint8_t>(cloud * grey[k] + (1.0 - cloud) * p[k]);
+      }
+    }
+  }
+  const Skyline skyline = ExtractSkyline(picture, SkylineOptions{});
+  EXPECT_GT(ShareOf(skyline, SkylineColumn::kSeen), 0.9);
+  EXPECT_LE(LargestDeviation(skyline), 1.0);
+}
+
+// As bright as the sky and nearly of its colour, beside it at the upper border: windows tell it.
+TEST(ExtractSkyline, FacadeOfTheSkysColourHasWindows) {
+  cv::Mat picture = StreetPicture(testing::kOvercast);
+  cv::rectangle(picture, {426, 0}, {639, 420}, {226, 236, 222}, cv::FILLED);
+  cv::line(picture, {426, 0}, {426, 420}, {150, 150, 150}, 3);
+  for (int y = 20; y < 380; y += 45) {
+    for (int x = 445; x < 630; x += 45) {
+      cv::rectangle(picture, {x, y}, {x + 20, y + 28}, {60, 55, 50}, cv::FILLED);
+    }
+  }
+  const Skyline skyline = ExtractSkyline(picture, SkylineOptions{});
+  int wrong = 0;
+  for (std::size_t c = 440; c < 640; ++c) {
+    wrong += skyline.columns[c] != SkylineColumn::kUnknown && skyline.y_px[c] > 20.0f;
+  }
+  EXPECT_EQ(wrong, 0);
+}
+
 TEST(ExtractSkyline, WhiteFacadeAtTheUpperBorderIsNotSky) {
   cv::Mat picture = StreetPicture(testing::kWhite);
   cv::rectangle(picture, {430, 0}, {639, 420}, {222, 226, 228}, cv::FILLED);

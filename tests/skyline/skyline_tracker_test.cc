@@ -59,9 +59,8 @@ class SkylineTracking : public ::testing::Test {
   }
 
   static double HeadingError(const SkylineFrame& frame, int index) {
-    return std::abs(HeadingDifferenceDeg(
-        ViewAnglesOf(frame.match.best.cam_from_world).heading_deg,
-        ViewAnglesOf(Truth(index).cam_from_world).heading_deg));
+    return std::abs(HeadingDifferenceDeg(ViewAnglesOf(frame.match.best.cam_from_world).heading_deg,
+                                         ViewAnglesOf(Truth(index).cam_from_world).heading_deg));
   }
 
   CityModel model_;
@@ -74,9 +73,9 @@ TEST_F(SkylineTracking, CarriesTheCorrectionFromFrameToFrame) {
     const SkylineFrame frame = tracker.Track(Picture(Truth(i)), Camera(), Sensors(i));
     ASSERT_TRUE(frame.match.pose) << "frame " << i << ": " << frame.match.reason;
     EXPECT_LT(HeadingError(frame, i), 1.5) << "frame " << i;
-    const double start_off = std::abs(
-        HeadingDifferenceDeg(ViewAnglesOf(frame.start.cam_from_world).heading_deg,
-                             ViewAnglesOf(Truth(i).cam_from_world).heading_deg));
+    const double start_off =
+        std::abs(HeadingDifferenceDeg(ViewAnglesOf(frame.start.cam_from_world).heading_deg,
+                                      ViewAnglesOf(Truth(i).cam_from_world).heading_deg));
     if (i == 0) {
       EXPECT_NEAR(start_off, 9.0, 1e-6);
     } else {
