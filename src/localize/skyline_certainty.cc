@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "score/sky_score.h"
 
@@ -15,9 +16,12 @@ constexpr int kVariables = 5;  // heading, pitch, roll [deg], east, north [m]
 using Vector = Eigen::Matrix<double, kVariables, 1>;
 using Matrix = Eigen::Matrix<double, kVariables, kVariables>;
 // Steps of the differences.
-constexpr std::array<double, kVariables> kSteps{1.0, 0.5, 1.0, 1.0, 1.0};
+constexpr std::array<double, kVariables> kSteps{1.0, 0.5, 1.0, 0.3, 0.3};
 // Most that one column can tell of a step [px at 640], as the distance limits it.
-constexpr double kMostPx = 20.0;
+constexpr double kMostPx = 60.0;
+// Columns to either side that a change is spread over.
+constexpr double kSpreadDeg = 1.5;
+constexpr double kRad = std::numbers::pi / 180.0;
 // Least deviation that a column is taken to have [px at 640].
 constexpr double kLeastDeviationPx = 1.0;
 // Deviations come by the roof, not by the column: so many pixels (at 640) count as one. Found on
@@ -64,15 +68,30 @@ double HeadingSigmaDeg(
   Matrix information = Matrix::Zero();
   const double deviation = std::max(kLeastDeviationPx, distance_px);
   const double weight = px_scale / kAlikePx / (deviation * deviation);
-  for (std::size_t c = 0; c < real.rows().size(); ++c) {
-    if (real.weights()[c] <= 0.0f) continue;
-    Vector change;
-    for (int v = 0; v < kVariables; ++v) {
-      const auto k = static_cast<std::size_t>(v);
+  // Changes of the columns, spread over their neighbours: a corner that moves aside changes other
+  // columns than one that moves twice as far, and yet both tell the same.
+  std::array<std::vector<double>, kVariables> changes;
+  const int columns = camera.width;
+  const int reach = static_cast<int>(std::ceil(kSpreadDeg * kRad * camera.fx));
+  for (int v = 0; v < kVariables; ++v) {
+    const auto k = static_cast<std::size_t>(v);
+    std::vector<double> sums(static_cast<std::size_t>(columns) + 1, 0.0);
+    for (std::size_t c = 0; c < real.rows().size(); ++c) {
       const double step_px = (upper[k][c] - lower[k][c]) * px_scale;
       // NaN: the virtual skyline does not reach the column.
-      change[v] = std::isnan(step_px) ? 0.0 : std::clamp(step_px, -kMostPx, kMostPx) / kSteps[k];
+      const double change = std::isnan(step_px) ? 0.0 : std::clamp(step_px, -kMostPx, kMostPx);
+      sums[c + 1] = sums[c] + change / kSteps[k];
     }
+    for (int c = 0; c < columns; ++c) {
+      const int first = std::max(0, c - reach), end = std::min(columns, c + reach + 1);
+      changes[k].push_back(
+          (sums[static_cast<std::size_t>(end)] - sums[static_cast<std::size_t>(first)]) /
+          (2 * reach + 1));
+    }
+  }
+  for (std::size_t c = 0; c < real.rows().size(); ++c) {
+    Vector change;
+    for (int v = 0; v < kVariables; ++v) change[v] = changes[static_cast<std::size_t>(v)][c];
     information += weight * real.weights()[c] * change * change.transpose();
   }
   information.diagonal().head<3>() +=
