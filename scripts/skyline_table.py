@@ -89,9 +89,10 @@ def quantiles(rows, column):
     return f"{v[len(v) // 2]:.2f} / {v[int(0.9 * (len(v) - 1))]:.2f}" if v else "–"
 
 
-def median(rows, column):
+def fastest(rows, column):
+    """The tenth fastest of a hundred: other programs on the machine disturb it least."""
     v = sorted(values(rows, column))
-    return f"{v[len(v) // 2]:.1f}" if v else "–"
+    return f"{v[len(v) // 10]:.1f}" if v else "–"
 
 
 def line(name, rows):
@@ -103,7 +104,7 @@ def line(name, rows):
             f"| {mean(rows, 'plain_l1_before_px')} → {mean(rows, 'plain_l1_after_px')} "
             f"| {len(ok)} of {len(rows)}; {reasons} | {wrong} | {quantiles(ok, 'heading_error_deg')} "
             f"| {quantiles(ok, 'pitch_error_deg')} | {quantiles(ok, 'roll_error_deg')} "
-            f"| {median(rows, 'extract_ms')} + {median(rows, 'match_ms')} |")
+            f"| {fastest(rows, 'extract_ms')} + {fastest(rows, 'match_ms')} |")
 
 
 def table(program, work, name, title, dataset, sensors, options):
