@@ -88,9 +88,9 @@ struct ConfidenceOptions {
   double offset = 0.0;
   double slope = 1.0;
   // Widens the posterior, since samples of a picture are correlated.
-  double temperature = 1.5;
+  double temperature = 1.0;
   // Least standard deviations, of what the map cannot resolve.
-  double floor_m = 0.45;
+  double floor_m = 0.4;
   double floor_deg = 0.4;
 
   void Visit(OptionVisitor& v);
