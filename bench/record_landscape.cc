@@ -95,6 +95,7 @@ void RecordAll(const Settings& settings) {
 int main(int argc, char** argv) {
   ridgeline::Settings settings;
   settings.options.search.map.spacing_m = 0.5;
+  settings.options.search.map.max_positions = 100000;
   std::vector<std::string> assignments;
   CLI::App app("Records energies around the true poses of a dataset");
   app.add_option("dataset", settings.dataset, "dataset.json")->required();

@@ -33,8 +33,8 @@ class Random {
   std::uint64_t state_;
 };
 
-// Quantile of the standard normal distribution, p in (0, 1); relative error below 1e-13
-// (Acklam's approximation with one step of Halley).
+// Quantile of the standard normal distribution, p in (0, 1); relative error below 1e-14
+// (Wichura 1988, algorithm AS 241).
 double NormalQuantile(double p);
 
 }  // namespace ridgeline

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/random.h"
+#include "optim/kernel_sum.h"
 
 namespace ridgeline {
 
@@ -48,37 +49,16 @@ class ParzenEstimator {
   // Points drawn from the mixture.
   Columns Sample(Random& random, std::size_t count) const;
 
-  // Natural logarithm of the density at each point.
-  // Cost: one exponential per point and kernel, in vector code.
-  std::vector<double> LogDensities(const Columns& points) const;
+  // Density at each point, to 1e-12 of it. One exponential per point and kernel, in vector code.
+  std::vector<double> Densities(const Columns& points) const;
 
  private:
-  struct Dimension {
-    bool periodic = false;
-    std::vector<double> mu;
-    std::vector<double> sigma;
-    std::vector<double> inverse_sigma;
-    // Periodic: the density counts the images of the kernel at mu - images, ..., mu + images.
-    std::vector<int> images;
-  };
-
-  static Dimension MakeDimension(const std::vector<double>& points,
-                                 bool periodic,
-                                 std::size_t dimensions,
-                                 const ParzenOptions& options);
   void Normalize(const std::vector<double>& weights, const ParzenOptions& options);
-  static void AddLinear(const Dimension& dimension, double x, std::vector<double>& squares);
-  static void AddPeriodic(const Dimension& dimension,
-                          double x,
-                          std::vector<double>& squares,
-                          std::vector<double>& factors);
-  double SampleCoordinate(const Dimension& dimension, std::size_t kernel, Random& random) const;
 
-  std::vector<Dimension> dimensions_;
+  std::vector<KernelAxis> axes_;
   std::vector<double> cumulative_weights_;
   // Weight over the integral of the unnormalised kernel; the prior is the last.
   std::vector<double> coefficients_;
-  bool has_images_ = false;
 };
 
 }  // namespace ridgeline

@@ -18,7 +18,7 @@ bool Finished(TrialState state) {
 std::size_t BestRatio(const std::vector<double>& good, const std::vector<double>& other) {
   std::size_t best = 0;
   for (std::size_t i = 1; i < good.size(); ++i) {
-    if (good[i] - other[i] > good[best] - other[best]) best = i;
+    if (good[i] / other[i] > good[best] / other[best]) best = i;
   }
   return best;
 }
@@ -176,6 +176,10 @@ TpeStrategy::DensityPair TpeStrategy::MakePair(const std::vector<std::size_t>& o
                                                const std::vector<std::size_t>& dimensions) const {
   Columns points[2] = {Columns(dimensions.size()), Columns(dimensions.size())};
   std::vector<double> weights[2];
+  for (std::vector<double>& group : weights) group.reserve(order.size());
+  for (Columns& group : points) {
+    for (std::vector<double>& column : group) column.reserve(order.size());
+  }
   for (const std::size_t i : order) {
     const int group = entries_[i].good ? 0 : 1;
     for (std::size_t k = 0; k < dimensions.size(); ++k) {
@@ -206,7 +210,7 @@ UnitPoint TpeStrategy::DrawFromModel(Random& random) const {
   for (const DensityPair& pair : pairs_) {
     const Columns candidates = pair.good.Sample(random, options_.candidates);
     const std::size_t best =
-        BestRatio(pair.good.LogDensities(candidates), pair.other.LogDensities(candidates));
+        BestRatio(pair.good.Densities(candidates), pair.other.Densities(candidates));
     for (const std::vector<double>& column : candidates) point.push_back(column[best]);
   }
   return point;
