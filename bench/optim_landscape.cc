@@ -21,7 +21,7 @@ struct Settings {
   std::vector<std::string> samplers = SamplerNames();
   std::vector<int> budgets = {50, 100, 200, 1000, 10000};
   int seeds = 20;
-  int gp_budget = 1000;
+  int gp_budget = 200;
   double within_m = 2.0;
   double within_deg = 2.0;
   SamplerOptions options;

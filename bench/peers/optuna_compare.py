@@ -191,8 +191,9 @@ def main():
     warnings.simplefilter("ignore")
     optuna.logging.set_verbosity(optuna.logging.ERROR)
     theirs = cached_runs(args.cache, args.variants, args.seeds)
-    output = subprocess.run([args.program, str(args.seeds)] + [VARIANTS[v] for v in args.variants],
-                            check=True, capture_output=True, text=True).stdout
+    samplers = list(dict.fromkeys(VARIANTS[v] for v in args.variants))
+    output = subprocess.run([args.program, str(args.seeds)] + samplers, check=True,
+                            capture_output=True, text=True).stdout
     ours = [line.split(",") for line in output.splitlines()[1:]]
     table = compare(ours, theirs, args.variants, args.seeds)
     if args.document:

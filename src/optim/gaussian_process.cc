@@ -154,57 +154,8 @@ std::vector<GaussianProcess::Prediction> GaussianProcess::PredictAll(const Matri
   return predictions;
 }
 
-double GaussianProcess::LogLikelihood(const MatrixXd& points,
-                                      const VectorXd& targets,
-                                      const std::vector<bool>& periodic,
-                                      const GpHyper& hyper,
-                                      VectorXd* gradient) {
-  const Index n = points.cols();
-  const Index dimension = points.rows();
-  const VectorXd inverse_lengths = (-hyper.head(dimension)).array().exp();
-  const double signal = std::exp(hyper[dimension]);
-  const double noise = std::exp(hyper[dimension + 1]);
-  MatrixXd squares(n, n);
-  MatrixXd covariance(n, n);
-  for (Index j = 0; j < n; ++j) {
-    for (Index i = j; i < n; ++i) {
-      squares(i, j) =
-          SquaredDistance(points.col(i).data(), points.col(j).data(), inverse_lengths, periodic);
-      covariance(i, j) = signal * Matern(squares(i, j));
-    }
-    covariance(j, j) += noise;
-  }
-  const Eigen::LLT<MatrixXd> factor(covariance);
-  if (factor.info() != Eigen::Success) {
-    if (gradient != nullptr) gradient->setZero(hyper.size());
-    return -std::numeric_limits<double>::infinity();
-  }
-  const VectorXd weights = factor.solve(targets);
-  const double half_log_determinant = factor.matrixLLT().diagonal().array().log().sum();
-  const double value = -0.5 * targets.dot(weights) - half_log_determinant -
-                       0.5 * static_cast<double>(n) * std::log(2.0 * std::numbers::pi);
-  if (gradient == nullptr) return value;
-
-  // Half the trace of (weights weights^T - inverse) times the derivative of the matrix.
-  const MatrixXd inverse = factor.solve(MatrixXd::Identity(n, n));
-  gradient->setZero(hyper.size());
-  for (Index j = 0; j < n; ++j) {
-    const double diagonal = weights[j] * weights[j] - inverse(j, j);
-    (*gradient)[dimension] += 0.5 * diagonal * signal;
-    (*gradient)[dimension + 1] += 0.5 * diagonal * noise;
-    for (Index i = j + 1; i < n; ++i) {
-      // The pair (j, i) is as much again, which takes the half away.
-      const double outer = weights[i] * weights[j] - inverse(i, j);
-      (*gradient)[dimension] += outer * covariance(i, j);
-      const double slope = outer * signal * MaternSlope(squares(i, j));
-      for (Index d = 0; d < dimension; ++d) {
-        const double scaled =
-            WayBetween(points(d, i), points(d, j), periodic[d]).distance * inverse_lengths[d];
-        (*gradient)[d] += slope * -2.0 * scaled * scaled;
-      }
-    }
-  }
-  return value;
+double GaussianProcess::Distance(double from, double to, bool periodic) {
+  return WayBetween(from, to, periodic).distance;
 }
 
 }  // namespace ridgeline

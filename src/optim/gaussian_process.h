@@ -39,13 +39,8 @@ class GaussianProcess {
   // Of many points (columns) at once, faster than one by one.
   std::vector<Prediction> PredictAll(const Eigen::MatrixXd& points) const;
 
-  // Natural logarithm of the marginal likelihood of targets at points, eq. 2.30 there; its gradient
-  // by the hyper-parameters if not null, eq. 5.9. -infinity if the matrix is not positive definite.
-  static double LogLikelihood(const Eigen::MatrixXd& points,
-                              const Eigen::VectorXd& targets,
-                              const std::vector<bool>& periodic,
-                              const GpHyper& hyper,
-                              Eigen::VectorXd* gradient);
+  // Signed distance along one dimension.
+  static double Distance(double from, double to, bool periodic);
 
  private:
   Eigen::VectorXd Covariances(const Eigen::VectorXd& point) const;

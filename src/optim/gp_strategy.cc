@@ -9,6 +9,7 @@
 #include "optim/batch_search.h"
 #include "optim/box_bfgs.h"
 #include "optim/expected_improvement.h"
+#include "optim/gp_likelihood.h"
 
 namespace ridgeline {
 namespace {
@@ -151,9 +152,9 @@ void GpStrategy::FitHyper(const MatrixXd& points, const VectorXd& targets) {
     upper[i] = priors[i].upper;
     center[i] = priors[i].center;
   }
+  const GpLikelihood log_likelihood(points, targets, context_.periodic);
   const SmoothFunction negative_log_posterior = [&](const VectorXd& hyper, VectorXd* gradient) {
-    double value =
-        -GaussianProcess::LogLikelihood(points, targets, context_.periodic, hyper, gradient);
+    double value = -log_likelihood(hyper, gradient);
     *gradient *= -1.0;
     for (Index i = 0; i < hyper.size(); ++i) {
       const double away = (hyper[i] - priors[i].center) / priors[i].deviation;

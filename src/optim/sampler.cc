@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "optim/gp_de.h"
 #include "optim/gp_strategy.h"
 #include "optim/grid_search.h"
 #include "optim/multi_start.h"
@@ -126,6 +127,9 @@ std::unique_ptr<Strategy> MakeOther(const SamplerOptions& options, const Strateg
   if (options.name == "random") return std::make_unique<RandomStrategy>(context);
   if (options.name == "sobol") return std::make_unique<SobolStrategy>(context);
   if (options.name == "gp") return std::make_unique<GpStrategy>(context, options.gp);
+  if (options.name == "gp_de") {
+    return std::make_unique<GpDe>(context, options.gp, options.de, options.gp_de);
+  }
   if (options.name == "multi_start") return MakeRoutine(MultiStart(context, options.multi_start));
   if (options.name == "grid") return MakeRoutine(GridSearch(context, options.grid));
   const bool joint = options.name == "tpe_multivariate";

@@ -130,6 +130,8 @@ void DifferentialEvolutionOptions::Visit(OptionVisitor& v) {
   v.Field("xtol", xtol);
 }
 
+void GpDeOptions::Visit(OptionVisitor& v) { v.Field("gp_trials", gp_trials); }
+
 void NelderMeadOptions::Visit(OptionVisitor& v) {
   v.Field("steps", steps);
   v.Field("groups", groups);
@@ -154,6 +156,7 @@ void SamplerOptions::Visit(OptionVisitor& v) {
   v.Group("gp", [this](OptionVisitor& g) { gp.Visit(g); });
   v.Group("cmaes", [this](OptionVisitor& g) { cmaes.Visit(g); });
   v.Group("de", [this](OptionVisitor& g) { de.Visit(g); });
+  v.Group("gp_de", [this](OptionVisitor& g) { gp_de.Visit(g); });
   v.Group("nelder_mead", [this](OptionVisitor& g) { nelder_mead.Visit(g); });
   v.Group("grid", [this](OptionVisitor& g) { grid.Visit(g); });
   v.Group("multi_start", [this](OptionVisitor& g) { multi_start.Visit(g); });
@@ -170,6 +173,7 @@ void SamplerOptions::Validate() const {
   ValidateTpe(tpe);
   ValidateGp(gp);
   ValidatePopulations(cmaes, de);
+  Require(gp_de.gp_trials >= 1, "gp_de.gp_trials", gp_de.gp_trials, ">= 1");
   ValidateNelderMead(nelder_mead);
   ValidateGrid(grid);
   ValidateMultiStart(multi_start);
@@ -183,6 +187,7 @@ const std::vector<std::string>& SamplerNames() {
                                                  "gp",
                                                  "cmaes",
                                                  "de",
+                                                 "gp_de",
                                                  "nelder_mead",
                                                  "grid",
                                                  "multi_start"};

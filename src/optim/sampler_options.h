@@ -23,8 +23,10 @@ struct TpeOptions {
   bool magic_clip = true;
   // Univariate rule: outermost kernels reach to the bounds.
   bool consider_endpoints = false;
-  // Kernels are divided by their deviation, as in Optuna since 3.5; false: as in Optuna 3.1.
-  bool divide_by_deviation = true;
+  // Kernels are divided by their deviation, as in Optuna since 3.5. Undivided, as in 3.1, the
+  // search does better on smooth functions and as well on recorded landscapes, see
+  // docs/samplers.md.
+  bool divide_by_deviation = false;
 
   void Visit(OptionVisitor& v);
 };
@@ -75,6 +77,14 @@ struct DifferentialEvolutionOptions {
   void Visit(OptionVisitor& v);
 };
 
+// Gaussian process first, then differential evolution, with the options of both (see gp_de.h).
+struct GpDeOptions {
+  // Trials of the Gaussian process, >= 1.
+  int gp_trials = 200;
+
+  void Visit(OptionVisitor& v);
+};
+
 // Downhill simplex (see nelder_mead.h).
 struct NelderMeadOptions {
   // Edges of the successive first simplices as fractions of the ranges, in (0, 1).
@@ -110,15 +120,17 @@ struct MultiStartOptions {
   void Visit(OptionVisitor& v);
 };
 
-// Which sampler, and how it is set. Each sampler reads its own group only.
+// Which sampler, and how it is set. Each sampler reads its own group only; gp_de those of gp and
+// de, too.
 struct SamplerOptions {
-  // One of SamplerNames(). The default won most often on recorded landscapes from 500 evaluations on,
-  // see docs/samplers.md.
-  std::string name = "de";
+  // One of SamplerNames(). The default won most often on recorded landscapes after any number of
+  // evaluations, see docs/samplers.md.
+  std::string name = "gp_de";
   TpeOptions tpe;
   GpOptions gp;
   CmaEsOptions cmaes;
   DifferentialEvolutionOptions de;
+  GpDeOptions gp_de;
   NelderMeadOptions nelder_mead;
   GridOptions grid;
   MultiStartOptions multi_start;

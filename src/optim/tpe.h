@@ -20,11 +20,10 @@ enum class TpeModel {
 //
 // The rules are those of Optuna 3.1.0 (TPESampler): startup, number of good trials, chronological
 // weights with a ramp, bandwidths (neighbour gaps; Scott's rule if multivariate), magic clip, prior
-// kernel, constant liar, and constraints (infeasible results rank behind all others). Kernels are
-// divided by their deviation as in Optuna since 3.5 (its issue 5109), or not, as in 3.1, by option.
-// Ours are:
-// the wrap-around kernel of periodic parameters; points that are known to be inadmissible are drawn
-// again, after kPatience of them uniformly; failed trials are forgotten, as in Optuna.
+// kernel, constant liar, and constraints (infeasible results rank behind all others). By option,
+// kernels are divided by their deviation as in Optuna since 3.5 (its issue 5109). Ours are: the
+// wrap-around kernel of periodic parameters; points that are known to be inadmissible are drawn
+// again, after kPatience of them uniformly. Failed trials are forgotten, as in Optuna.
 class TpeStrategy final : public Strategy {
  public:
   TpeStrategy(const StrategyContext& context, const TpeOptions& options, TpeModel model);

@@ -119,6 +119,53 @@ TEST(ParzenEstimator, WrappedKernelEqualsTheSumOfItsImages) {
   EXPECT_NEAR(estimator.Densities({{x}})[0], 0.5 * wrapped + 0.5, 1e-12);
 }
 
+// A joint density of linear and periodic dimensions, as the sum over kernels of the products of
+// normal distributions, with as many points as do not fill the blocks of the vector code.
+TEST(ParzenEstimator, JointDensityEqualsTheSumOfProducts) {
+  constexpr int kPoints = 9;
+  constexpr int kQueries = 53;
+  Random random(4, 1);
+  Columns points(3);
+  Columns queries(3);
+  for (std::vector<double>& column : points) {
+    for (int i = 0; i < kPoints; ++i) column.push_back(random.Uniform());
+  }
+  for (std::vector<double>& column : queries) {
+    for (int i = 0; i < kQueries; ++i) column.push_back(random.Uniform());
+  }
+  ParzenOptions options;
+  options.rule = BandwidthRule::kScott;
+  const std::vector<bool> periodic = {false, true, false};
+  const ParzenEstimator estimator(points, std::vector<double>(kPoints, 1.0), periodic, options);
+  const std::vector<double> found = estimator.Densities(queries);
+  const double sigma = std::max(0.2 * std::pow(kPoints, -1.0 / 7.0), 1.0 / (2.0 + kPoints));
+  const auto normal = [](double x, double mu, double deviation) {
+    const double z = (x - mu) / deviation;
+    return std::exp(-0.5 * z * z) / (deviation * std::sqrt(2.0 * std::numbers::pi));
+  };
+  const auto truncated = [&](double x, double mu, double deviation) {
+    const double scale = 1.0 / (deviation * std::numbers::sqrt2);
+    const double mass = 0.5 * (std::erf((1.0 - mu) * scale) + std::erf(mu * scale));
+    return normal(x, mu, deviation) / mass;
+  };
+  for (int i = 0; i < kQueries; ++i) {
+    double expected = truncated(queries[0][i], 0.5, 1.0) * truncated(queries[2][i], 0.5, 1.0);
+    for (int k = 0; k < kPoints; ++k) {
+      double wrapped = 0.0;
+      for (int image = -9; image <= 9; ++image) {
+        wrapped += normal(queries[1][i] + image, points[1][k], sigma);
+      }
+      expected += truncated(queries[0][i], points[0][k], sigma) * wrapped *
+                  truncated(queries[2][i], points[2][k], sigma);
+    }
+    expected /= kPoints + 1.0;
+    EXPECT_NEAR(found[i], expected, 1e-11 * expected);
+    const double alone =
+        estimator.Densities({{queries[0][i]}, {queries[1][i]}, {queries[2][i]}})[0];
+    EXPECT_EQ(found[i], alone);
+  }
+}
+
 // Kolmogorov-Smirnov distance of 4000 draws to the density's own distribution function.
 TEST(ParzenEstimator, SamplesFollowTheDensity) {
   constexpr int kDraws = 4000;
