@@ -87,12 +87,14 @@ class Comparison {
         last = fit({}, first);
         return last.offset;
       });
-      AddNormalized(query, space, last);
+      AddNormalized(query, space, "fit", last);
       Add(query, seed, "fit, then compass", space,
           [&] { return compass(fit({}, first).offset, {0.12, 0.12, 0.06}); });
       Add(query, seed, "compass, then fit", space, [&] {
-        return fit(compass({}, {0.5, 0.5, 0.06}), 1.0).offset;
+        last = fit(compass({}, {0.5, 0.5, 0.06}), 1.0);
+        return last.offset;
       });
+      AddNormalized(query, space, "compass, then fit", last);
       Add(query, seed, "coarse compass, then fit", space, [&] {
         return fit(compass({}, {0.5, 0.5, 0.3}), 1.0).offset;
       });
@@ -141,13 +143,16 @@ class Comparison {
     }
   }
 
-  void AddNormalized(const Query& query, const PoseSpace& space, const PoseFit& fit) {
+  void AddNormalized(const Query& query,
+                     const PoseSpace& space,
+                     const char* name,
+                     const PoseFit& fit) {
     if (fit.status != PoseFitStatus::kOk) return;
     const Eigen::Vector2d error =
         (space.PoseAt(fit.offset)->center_in_world + localizer_.scene().model().origin_in_world -
          query.truth->center_in_world)
             .head<2>();
-    outcomes_["fit"].normalized.push_back(
+    outcomes_[name].normalized.push_back(
         error.dot(fit.covariance.topLeftCorner<2, 2>().inverse() * error));
     if (settings_.each) {
       std::printf("   matches %d, rounds %d, sigma0 %.2f, sigmas %.3f %.3f m %.3f deg, overhang "

@@ -132,6 +132,24 @@ TEST(DifferentialEvolution, ConvergesOnRosenbrockAndOnAPeriodicSeam) {
             1e-3);
 }
 
+TEST(GpDe, IsTheGaussianProcessFirstAndConvergesLikeDifferentialEvolution) {
+  SearchProblem problem;
+  problem.box = CubeBox(3, -2.0, 2.0);
+  SamplerOptions options = Named("gp_de");
+  options.gp_de.gp_trials = 40;
+  const Trace trace = Search(options, problem, Rosenbrock, 3000);
+  const Trace first = Search(Named("gp"), problem, Rosenbrock, 40);
+  for (std::size_t i = 0; i < first.trials.size(); ++i) {
+    EXPECT_EQ(trace.trials[i].values, first.trials[i].values);
+  }
+  // The best of the first is the first point of the second.
+  const std::vector<double>& best = first.Best()->values;
+  for (std::size_t d = 0; d < best.size(); ++d) {
+    EXPECT_NEAR(trace.trials[40].values[d], best[d], 1e-12);
+  }
+  EXPECT_LT(trace.Best()->energy, 1e-2);
+}
+
 TEST(GridSearch, FindsANarrowMinimumAndEnds) {
   const auto narrow = [](std::span<const double> x) {
     return 1.0 - std::exp(-200.0 * ((x[0] - 0.31) * (x[0] - 0.31) + (x[1] + 0.47) * (x[1] + 0.47)));
