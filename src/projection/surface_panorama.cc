@@ -42,14 +42,6 @@ SurfacePanorama::Places SurfacePanorama::PlacesOf(const simd::Vec3x4& directions
           (elevation - static_cast<float>(first_elevation)) * inverse_step + 0.5f};
 }
 
-Int4 SurfacePanorama::CellsAt(const Places& places) const {
-  const Int4 column = __builtin_convertvector(places.column, Int4);
-  const Int4 row = __builtin_convertvector(places.row, Int4);
-  const Int4 inside = (places.column >= 0.0f) & (column < columns) & (places.row >= 0.0f) &
-                      (row < rows);
-  return inside ? row * columns + column : Int4{-1, -1, -1, -1};
-}
-
 const std::uint32_t* SurfacePanorama::Find(const Eigen::Vector3f& direction) const {
   const std::int32_t cell = Find(simd::Splat(direction))[0];
   return cell < 0 ? nullptr : &surfaces[static_cast<std::size_t>(cell)];

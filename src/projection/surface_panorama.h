@@ -31,7 +31,13 @@ struct SurfacePanorama {
     simd::Float4 column, row;
   };
   Places PlacesOf(const simd::Vec3x4& directions) const;
-  simd::Int4 CellsAt(const Places& places) const;
+  simd::Int4 CellsAt(const Places& places) const {
+    const simd::Int4 column = __builtin_convertvector(places.column, simd::Int4);
+    const simd::Int4 row = __builtin_convertvector(places.row, simd::Int4);
+    const simd::Int4 inside = (places.column >= 0.0f) & (column < columns) &
+                              (places.row >= 0.0f) & (row < rows);
+    return inside ? row * columns + column : simd::Int4{-1, -1, -1, -1};
+  }
 };
 
 struct PanoramaRange {

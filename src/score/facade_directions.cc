@@ -86,6 +86,10 @@ FacadeDirections::FacadeDirections(std::span<const LineSegment> segments,
     return x.Length() > y.Length();
   });
   longest.resize(std::min<std::size_t>(longest.size(), options.max_lines), LineSegment{});
+  // Neighbours side by side: four lines before the sky or the ground cost little.
+  std::stable_sort(longest.begin(), longest.end(), [](const LineSegment& x, const LineSegment& y) {
+    return x.a.y() + x.b.y() < y.a.y() + y.b.y();
+  });
   lines_.resize((longest.size() + 3) / 4, Lines{});
   for (std::size_t i = 0; i < longest.size(); ++i) {
     const LineSegment& segment = longest[i];
@@ -148,6 +152,7 @@ float FacadeDirections::LogRatio(const SurfacePanorama& surfaces,
       simd::SetLane(rise, lane, normal.cross(along));
       weight[lane] = lines.weight[lane];
     }
+    if (simd::Bits(weight > 0.0f) == 0) continue;
     const Float4 squares =
         inverse_variance_ * simd::Min(SquareOfSine(lines, Rotated(to_camera, course)),
                                       SquareOfSine(lines, Rotated(to_camera, rise)));

@@ -18,6 +18,7 @@ void SkylineRows(std::span<const Eigen::Vector3f> directions,
   const float cx = static_cast<float>(camera.cx);
   const float cy = static_cast<float>(camera.cy);
   const int columns = static_cast<int>(rows.size());
+  const float width = static_cast<float>(columns);
   bool has_last = false;
   float last_x = 0.0f;
   float last_y = 0.0f;
@@ -27,9 +28,10 @@ void SkylineRows(std::span<const Eigen::Vector3f> directions,
       has_last = false;
       continue;
     }
-    const float x = fx * p.x() / p.z() + cx;
-    const float y = fy * p.y() / p.z() + cy;
-    if (has_last && x > last_x) {
+    const float inverse_z = 1.0f / p.z();
+    const float x = fx * p.x() * inverse_z + cx;
+    const float y = fy * p.y() * inverse_z + cy;
+    if (has_last && x > last_x && x > 0.0f && last_x < width) {
       // Columns whose centres lie in (last_x, x].
       const int first = std::max(0, static_cast<int>(std::ceil(last_x - 0.5f)));
       const int last = std::min(columns - 1, static_cast<int>(std::floor(x - 0.5f)));
