@@ -36,6 +36,66 @@ struct Box {
   std::vector<bool> is_near;  // within 2 m and 2 degrees of the truth
 };
 
+// The cues of the poses on a grid around the prior.
+struct Grid {
+  PoseSpaceOptions ranges;
+  int spacing_m = 1;
+  int heading_step_deg = 1;
+  bool includes_truth = true;  // false: poses far from the truth only, to be told from it
+};
+
+void AddPoses(const Grid& grid,
+              const Query& query,
+              int seed,
+              const PictureEvidence& evidence,
+              const Localizer& localizer,
+              const Settings& settings,
+              Box& box) {
+  constexpr double kFarM = 5.0;
+  constexpr double kFarDeg = 10.0;
+  const LineLikelihood lines = evidence.Lines(1.0);
+  const PosePrior prior =
+      DrawPrior(*query.truth, ParsePerturbation(settings.perturb), seed, query.id);
+  const PoseSpace space(
+      prior, grid.ranges, localizer.scene(), localizer.dtm(), localizer.footprints());
+  const PanoramaRange range =
+      RangeOf(evidence.camera(),
+              space.center_angles(),
+              {grid.ranges.heading_deg, 0.0, 0.0},
+              settings.options.score.evidence.surface_step_deg * std::numbers::pi / 180.0);
+  const int east = static_cast<int>(grid.ranges.east_m);
+  const int north = static_cast<int>(grid.ranges.north_m);
+  const int heading = static_cast<int>(grid.ranges.heading_deg);
+  Pose truth = *query.truth;
+  truth.center_in_world -= localizer.scene().model().origin_in_world;
+  std::vector<Box> rows(static_cast<std::size_t>(2 * north / grid.spacing_m + 1));
+  ParallelFor(rows.size(), 0, [&](std::size_t row) {
+    PictureEvidence::Workspace workspace;
+    const int n = grid.spacing_m * static_cast<int>(row) - north;
+    for (int e = -east; e <= east; e += grid.spacing_m) {
+      const auto position = space.PositionAt(e, n, 0.0);
+      if (!position) continue;
+      const PositionView view = ViewFrom(localizer.scene(), *position, range, {});
+      for (int h = -heading; h <= heading; h += grid.heading_step_deg) {
+        PoseSpace::Offset offset;
+        offset.heading_deg = h;
+        const Pose pose{CamFromWorld(space.AnglesAt(offset)), *position};
+        const PoseError error = ErrorOf(pose, truth);
+        const bool is_far = error.translation_m > kFarM || error.rotation_deg > kFarDeg;
+        if (!grid.includes_truth && !is_far) continue;
+        rows[row].cues.push_back(
+            evidence.Cues(view, localizer.scene().model(), pose, lines, workspace));
+        rows[row].is_near.push_back(error.translation_m <= 2.0 && error.rotation_deg <= 2.0);
+      }
+    }
+  });
+  for (const Box& row : rows) {
+    box.cues.insert(box.cues.end(), row.cues.begin(), row.cues.end());
+    box.is_near.insert(box.is_near.end(), row.is_near.begin(), row.is_near.end());
+  }
+}
+
+// The box of the perturbation, densely, and decoys from farther away, in all headings.
 Box BoxOf(const Query& query, int seed, const Localizer& localizer, const Settings& settings) {
   const LocalizerOptions& options = settings.options;
   const LocalizationInput input = InputOf(query, options);
@@ -45,46 +105,14 @@ Box BoxOf(const Query& query, int seed, const Localizer& localizer, const Settin
                                  options.score.evidence,
                                  0,
                                  input.lines);
-  const LineLikelihood lines = evidence.Lines(1.0);
-  const Perturbation perturb = ParsePerturbation(settings.perturb);
-  const PoseSpaceOptions ranges = RangesOf(options.search.space, perturb);
-  const PoseSpace space(DrawPrior(*query.truth, perturb, seed, query.id),
-                        ranges,
-                        localizer.scene(),
-                        localizer.dtm(),
-                        localizer.footprints());
-  const PanoramaRange range =
-      RangeOf(evidence.camera(),
-              space.center_angles(),
-              {ranges.heading_deg, 0.0, 0.0},
-              options.score.evidence.surface_step_deg * std::numbers::pi / 180.0);
-  const int east = static_cast<int>(ranges.east_m);
-  const int north = static_cast<int>(ranges.north_m);
-  const int heading = static_cast<int>(ranges.heading_deg);
-  Pose truth = *query.truth;
-  truth.center_in_world -= localizer.scene().model().origin_in_world;
-  std::vector<Box> rows(static_cast<std::size_t>(2 * north + 1));
-  ParallelFor(rows.size(), 0, [&](std::size_t row) {
-    PictureEvidence::Workspace workspace;
-    for (int e = -east; e <= east; ++e) {
-      const auto position = space.PositionAt(e, static_cast<int>(row) - north, 0.0);
-      if (!position) continue;
-      const PositionView view = ViewFrom(localizer.scene(), *position, range, {});
-      for (int h = -heading; h <= heading; ++h) {
-        PoseSpace::Offset offset;
-        offset.heading_deg = h;
-        const Pose pose{CamFromWorld(space.AnglesAt(offset)), *position};
-        const PoseError error = ErrorOf(pose, truth);
-        rows[row].cues.push_back(
-            evidence.Cues(view, localizer.scene().model(), pose, lines, workspace));
-        rows[row].is_near.push_back(error.translation_m <= 2.0 && error.rotation_deg <= 2.0);
-      }
-    }
-  });
+  Grid dense;
+  dense.ranges = RangesOf(options.search.space, ParsePerturbation(settings.perturb));
+  Grid decoys{dense.ranges, 4, 6, false};
+  decoys.ranges.east_m = decoys.ranges.north_m = 40.0;
+  decoys.ranges.heading_deg = 180.0;
   Box box;
-  for (const Box& row : rows) {
-    box.cues.insert(box.cues.end(), row.cues.begin(), row.cues.end());
-    box.is_near.insert(box.is_near.end(), row.is_near.begin(), row.is_near.end());
+  for (const Grid& grid : {dense, decoys}) {
+    AddPoses(grid, query, seed, evidence, localizer, settings, box);
   }
   return box;
 }

@@ -32,7 +32,7 @@ struct ScoreOptions {
   // Weights of the cues, in the order of kCueNames: the maximum likelihood of the dev queries
   // (docs/scores.md has the command).
   std::vector<double> weights = {
-      0.095, 0.031, 0.030, 0.070, 0.19, 3.6, 1.2, 38.0, 0.0175};
+      0.101, 0.029, 0.029, 0.106, 0.080, 3.3, 0.86, 45.0, 0.0127};
   EvidenceOptions evidence;
   LineEnergyOptions line_energy;
   OrientedChamferOptions oriented_chamfer;
