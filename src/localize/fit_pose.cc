@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "base/error.h"
-#include "lines/line_families.h"
+#include "lines/angle_to_direction.h"
 #include "score/position_view.h"
 
 namespace ridgeline {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "lines/line_families.h"
+#include "lines/angle_to_direction.h"
 #include "support/synthetic_city.h"
 
 namespace ridgeline {
