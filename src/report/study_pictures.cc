@@ -75,7 +75,7 @@ cv::Mat MapPicture(const StudyNames& names, const ScoreStudy& study) {
                      : Text("%.2g %% of all poses score better than near it",
                             100.0 * study.figures->better_share));
   } else {
-    grid.note = "no pose of the map sees the model";
+    grid.note = study.reason;
   }
   DrawGrid(grid, {0, 0, 660, 640}, picture);
 

@@ -247,7 +247,7 @@ BenchRun RunOf(const Query& query, const ScoreStudy& study, const StudyOptions& 
   run.prior = study.prior;
   run.localization.map = study.map;
   run.localization.status = LocalizationStatus::kNoVisibleModel;
-  run.localization.reason = "no pose of the map sees the model";
+  run.localization.reason = study.reason;
   if (study.figures) {
     run.localization.status = LocalizationStatus::kOk;
     run.localization.reason.clear();

@@ -19,8 +19,10 @@ EvidenceScore::EvidenceScore(const PictureEvidence& evidence,
 double EvidenceScore::LogRatio(const PositionView& view,
                                const Pose& cam_from_local,
                                PictureEvidence::Workspace& workspace) const {
+  constexpr double kNothing = -std::numeric_limits<double>::infinity();
+  if (evidence_.is_blank()) return kNothing;
   const CueVector cues = evidence_.Cues(view, model_, cam_from_local, lines_, workspace);
-  if (workspace.segments.empty()) return -std::numeric_limits<double>::infinity();
+  if (workspace.segments.empty()) return kNothing;
   double sum = 0.0;
   for (int k = 0; k < kCues; ++k) sum += weights_[k] * cues[k];
   return sum;

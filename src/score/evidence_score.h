@@ -25,6 +25,9 @@ class EvidenceScore final : public Score {
             weights_[kFacadeCue] > 0.0 || weights_[kRegionCue] > 0.0 ||
                 weights_[kFacadeColourCue] > 0.0};
   }
+  const char* unusable() const override {
+    return evidence_.is_blank() ? "the picture has no lines and one colour" : "";
+  }
   double LogRatio(const PositionView& view,
                   const Pose& cam_from_local,
                   PictureEvidence::Workspace& workspace) const override;

@@ -33,7 +33,9 @@ class LineEnergy {
   // `picture`: segments of the picture [px of an image of `width_px`].
   LineEnergy(std::span<const LineSegment> picture, int width_px, const LineEnergyOptions& options);
 
-  // In [0, 1]; 1 without model segments.
+  bool has_lines() const { return !segments_.empty(); }
+
+  // In [0, 1]; 1 without model segments, and for a picture without lines.
   double Energy(std::span<const LineSegment> model) const;
 
  private:

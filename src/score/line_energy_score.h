@@ -15,6 +15,9 @@ class LineEnergyScore final : public Score {
                   const LineEnergyOptions& options);
 
   ViewParts parts() const override { return {true, false}; }
+  const char* unusable() const override {
+    return energy_.has_lines() ? "" : "the picture has no lines";
+  }
   double LogRatio(const PositionView& view,
                   const Pose& cam_from_local,
                   PictureEvidence::Workspace& workspace) const override;

@@ -80,6 +80,8 @@ class PictureEvidence {
   const PinholeCamera& camera() const { return camera_; }
   const std::vector<LineSegment>& segments() const { return segments_; }
   const OrientedDistanceField& field() const { return field_; }
+  // Whether there is nothing to compare: no lines, and one colour.
+  bool is_blank() const { return segments_.empty() && !colours_.has_colours(); }
 
   // The line likelihood with a wider (> 1) tolerance of the model's errors than the options', for
   // poses on a coarse grid. Refers to this object.

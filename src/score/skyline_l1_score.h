@@ -12,6 +12,9 @@ class SkylineL1Score final : public Score {
   explicit SkylineL1Score(const SkylineL1& matcher) : matcher_(matcher) {}
 
   ViewParts parts() const override { return {true, false}; }
+  const char* unusable() const override {
+    return matcher_.use() == SkylineUse::kUsable ? "" : ReasonOf(matcher_.use());
+  }
   double LogRatio(const PositionView& view,
                   const Pose& cam_from_local,
                   PictureEvidence::Workspace& workspace) const override;

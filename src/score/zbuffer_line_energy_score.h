@@ -19,6 +19,9 @@ class ZbufferLineEnergyScore final : public Score {
                          const ZbufferHoughOptions& zbuffer);
 
   ViewParts parts() const override { return {false, false}; }
+  const char* unusable() const override {
+    return energy_.has_lines() ? "" : "the picture has no lines";
+  }
   double LogRatio(const PositionView& view,
                   const Pose& cam_from_local,
                   PictureEvidence::Workspace& workspace) const override;

@@ -36,8 +36,11 @@ std::vector<ScoreChoice> ChooseScores(const std::vector<std::string>& names,
       choice.options.name = name;
     } else {
       choice.options.name = "evidence";
+      const auto k = static_cast<std::size_t>(cue - kCueNames.begin());
+      // The weight keeps the energies readable: one nat of a cue is much, of another nothing.
+      const double weight = base.weights[k] > 0.0 ? base.weights[k] : 1.0;
       choice.options.weights.assign(kCues, 0.0);
-      choice.options.weights[static_cast<std::size_t>(cue - kCueNames.begin())] = 1.0;
+      choice.options.weights[k] = weight;
     }
     choices.push_back(std::move(choice));
   }

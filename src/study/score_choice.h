@@ -15,7 +15,7 @@ struct ScoreChoice {
 };
 
 // Names that ChooseScores() accepts: those of the scores, then those of the cues of "evidence",
-// each of which stands for that cue alone.
+// each of which stands for that cue alone, with its own weight (1 if that is 0).
 std::vector<std::string> StudyScoreNames();
 
 // The scores of these names, with `base` for all that a name leaves open. "all": every score and

@@ -71,7 +71,10 @@ class QueryStudy {
     study.picture_lines = static_cast<int>(evidence_.segments().size());
     study.visible_edges = VisibleEdgesAtTruth();
     study.figures = ReliabilityOf(scored);
-    if (study.figures) {
+    if (!study.figures) {
+      study.reason = score->unusable();
+      if (study.reason.empty()) study.reason = "no admissible pose of the map sees the model";
+    } else {
       const auto best =
           space_.PoseAt(scored.volume.OffsetOf(study.figures->minimum, space_.center_angles()));
       study.minimum = {best->cam_from_world,

@@ -47,7 +47,8 @@ struct ScoreStudy {
   std::size_t score = 0;  // index into the scores
   std::string set;        // of the query
   PosePrior prior;
-  std::optional<Reliability> figures;  // absent: no admissible pose of the map sees the model
+  std::optional<Reliability> figures;  // absent: every pose has the energy 1
+  std::string reason;                  // why they are absent; empty where they are not
   Pose minimum;                        // world frame; of the map, where there are figures
   EnergyMap map;
   std::vector<double> heading_deg;     // of the map's headings

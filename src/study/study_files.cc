@@ -67,7 +67,7 @@ std::string FiguresCsv(const StudyNames& names, std::span<const ScoreStudy> stud
   std::ostringstream csv;
   csv << "query,set,score" << FigureHeader()
       << ",margin_log_ratio,minimum_e,minimum_n,minimum_h,minimum_heading_deg,minimum_energy,poses,"
-         "visible_edges,picture_lines,seconds\n";
+         "visible_edges,picture_lines,seconds,reason\n";
   for (const ScoreStudy& study : studies) {
     csv << NameFields(names, study) << FigureFields(study) << ',';
     if (study.figures) {
@@ -82,7 +82,7 @@ std::string FiguresCsv(const StudyNames& names, std::span<const ScoreStudy> stud
       csv << ",,,,,,0";
     }
     csv << ',' << study.visible_edges << ',' << study.picture_lines << ','
-        << CsvNumber(study.seconds, 3) << '\n';
+        << CsvNumber(study.seconds, 3) << ',' << CsvField(study.reason) << '\n';
   }
   return csv.str();
 }

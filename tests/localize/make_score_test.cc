@@ -114,9 +114,24 @@ TEST_P(ScoresOfAHouse, PicturesThatShowNothingHaveADefinedEnergy) {
       EXPECT_EQ(answer.energy, 1.0);
     }
   }
-  const bool is_fusion = std::string(GetParam()) == "evidence";
-  if (!is_fusion) {
-    EXPECT_EQ(Of(black).energy, 1.0);
+  EXPECT_EQ(Of(black).energy, 1.0);
+  EXPECT_NE(Of(black).unusable, "");
+  EXPECT_EQ(Of(Photo()).unusable, "");
+}
+
+// Dark bricks up to the upper border: lines and colours, no sky.
+TEST_P(ScoresOfAHouse, WithoutSkyTheEnergyIsDefined) {
+  cv::Mat wall(kCamera.height, kCamera.width, CV_8UC3, cv::Scalar(30, 40, 60));
+  for (int y = 0; y < wall.rows; y += 12) {
+    for (int x = y % 24; x < wall.cols; x += 30) {
+      cv::rectangle(wall, cv::Rect(x, y, 26, 9), cv::Scalar(40 + x % 50, 60, 110), cv::FILLED);
+    }
+  }
+  const Answer answer = Of(wall);
+  EXPECT_TRUE(answer.energy >= 0.0 && answer.energy <= 1.0) << answer.energy;
+  // Whether bricks are sky is the extraction's to say.
+  if (std::string(GetParam()) != "skyline_l1") {
+    EXPECT_EQ(answer.unusable, "");
   }
 }
 

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "eval/metrics.h"
 #include "study/street_study.h"
+#include "study/study_files.h"
 #include "study/study_summary.h"
 
 namespace ridgeline {
@@ -82,6 +83,24 @@ TEST_F(Study, FindsTheTruthOfAPlainPictureWithTheDefaultScore) {
   EXPECT_GT(study.picture_lines, 10);
 }
 
+TEST_F(Study, APictureThatShowsNothingHasNoFiguresAndAReason) {
+  Dataset dataset = street_.dataset();
+  dataset.queries[0].image = dataset.queries[0].image.parent_path() / "black.png";
+  cv::imwrite(dataset.queries[0].image.string(), cv::Mat::zeros(240, 320, CV_8UC3));
+  const std::vector<std::size_t> queries = {0};
+  const std::vector<ScoreChoice> scores =
+      ChooseScores({"all"}, street_.localizer().options().score);
+  const std::vector<ScoreStudy> studies =
+      RunStudy(dataset, queries, street_.localizer(), scores, Options(), {});
+  ASSERT_EQ(studies.size(), scores.size());
+  for (std::size_t s = 0; s < studies.size(); ++s) {
+    EXPECT_FALSE(studies[s].figures.has_value()) << scores[s].name;
+    EXPECT_THAT(studies[s].reason, HasSubstr("picture")) << scores[s].name;
+    for (const float energy : studies[s].map.energies) EXPECT_EQ(energy, 1.0f) << scores[s].name;
+  }
+  EXPECT_THAT(FiguresCsv({dataset, scores, {}}, studies), HasSubstr("no lines"));
+}
+
 TEST_F(Study, IsTheSameOnAnyNumberOfThreads) {
   const ScoreStudy one = Studies({"evidence"}, 1).front();
   const ScoreStudy many = Studies({"evidence"}, 8).front();
@@ -127,11 +146,14 @@ TEST_F(Study, BadInputIsNamed) {
 }
 
 TEST_F(Study, ACueIsTheEvidenceWithItsWeightAlone) {
-  const auto choices = ChooseScores({"sky", "line_energy", "sky"}, {});
-  ASSERT_EQ(choices.size(), 2u);
+  ScoreOptions base;
+  base.weights = {1, 2, 3, 4, 5, 6, 7, 8, 0};
+  const auto choices = ChooseScores({"sky", "line_energy", "sky", "facade_colours"}, base);
+  ASSERT_EQ(choices.size(), 3u);
   EXPECT_EQ(choices[0].options.name, "evidence");
-  EXPECT_EQ(choices[0].options.weights, (std::vector<double>{0, 0, 0, 0, 0, 1, 0, 0}));
+  EXPECT_EQ(choices[0].options.weights, (std::vector<double>{0, 0, 0, 0, 0, 6, 0, 0, 0}));
   EXPECT_EQ(choices[1].options.name, "line_energy");
+  EXPECT_EQ(choices[2].options.weights, (std::vector<double>{0, 0, 0, 0, 0, 0, 0, 0, 1}));
 }
 
 TEST(StudySummary, CountsQueriesWithoutFiguresAsNotFound) {
