@@ -212,7 +212,9 @@ Localization Localizer::Localize(const LocalizationInput& input,
   lap("search");
   if (modes.empty()) {
     result.status = LocalizationStatus::kNoVisibleModel;
-    result.reason = "no admissible pose of the search box sees the model";
+    const std::string unusable = score->unusable();
+    result.reason =
+        unusable.empty() ? "no admissible pose of the search box sees the model" : unusable;
     return result;
   }
 
