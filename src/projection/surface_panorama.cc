@@ -96,7 +96,7 @@ void Halve(int block, SurfacePanorama& panorama, GridCaster& caster) {
     return panorama.surfaces[static_cast<std::size_t>(row) * panorama.columns + column];
   };
   const int blocks_across = (panorama.columns - 1) / block;
-  // Whether the corners of the blocks in a row of them differ; none before the first, after the last.
+  // Whether the corners differ, by block of a row of them; none do outside the grid.
   const auto differ_in = [&](int row) {
     std::vector<char> differ(static_cast<std::size_t>(blocks_across) + 2, 0);
     if (row < 0 || row + block >= panorama.rows) return differ;

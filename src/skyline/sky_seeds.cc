@@ -48,6 +48,19 @@ struct Regions {
   }
 };
 
+// Calls visit(index) for the four neighbours of every pixel, also of those that it appends.
+template <typename Visit>
+void VisitNeighbours(int columns, int count, const std::vector<int>& pixels, const Visit& visit) {
+  for (std::size_t next = 0; next < pixels.size(); ++next) {
+    const int p = pixels[next];
+    const int column = p % columns;
+    if (column > 0) visit(p - 1);
+    if (column < columns - 1) visit(p + 1);
+    if (p >= columns) visit(p - columns);
+    if (p + columns < count) visit(p + columns);
+  }
+}
+
 // Adds to `pixels` (row-major indices) all pixels of value `open` that are connected with them,
 // setting these to `taken`.
 void Spread(std::uint8_t open, std::uint8_t taken, cv::Mat& labels, std::vector<int>& pixels) {
@@ -59,14 +72,7 @@ void Spread(std::uint8_t open, std::uint8_t taken, cv::Mat& labels, std::vector<
     l[i] = taken;
     pixels.push_back(i);
   };
-  for (std::size_t next = 0; next < pixels.size(); ++next) {
-    const int p = pixels[next];
-    const int column = p % columns;
-    if (column > 0) visit(p - 1);
-    if (column < columns - 1) visit(p + 1);
-    if (p >= columns) visit(p - columns);
-    if (p + columns < count) visit(p + columns);
-  }
+  VisitNeighbours(columns, count, pixels, visit);
 }
 
 // Takes a connected region from `labels`, starting in column x of the upper border.
@@ -177,14 +183,7 @@ cv::Mat Clouds(const cv::Mat& log_odds, const cv::Mat& contrast, const cv::Mat& 
       pixels.push_back(i);
     };
     for (const int i : std::exchange(beyond, {})) visit(i);
-    for (std::size_t next = 0; next < pixels.size(); ++next) {
-      const int p = pixels[next];
-      const int column = p % columns;
-      if (column > 0) visit(p - 1);
-      if (column < columns - 1) visit(p + 1);
-      if (p >= columns) visit(p - columns);
-      if (p + columns < count) visit(p + columns);
-    }
+    VisitNeighbours(columns, count, pixels, visit);
     pixels.clear();
     cv::Mat region;
     cv::morphologyEx(reached, region, cv::MORPH_CLOSE, kernel);  // small holes are filled
