@@ -239,10 +239,12 @@ std::vector<EdgeMatch> EdgeMatcher::Match(const PositionView& view,
 
     const double seen = likelihood_.seen_share[static_cast<std::size_t>(view.kinds[segment.piece])];
     const Eigen::Vector2f middle = 0.5f * (segment.a + segment.b);
-    const double density = OrientedDistanceField::DensityOfLevel(field_.DensityLevel(
-        OrientedDistanceField::DirectionOf(d.x(), d.y()),
-        std::clamp(static_cast<int>(middle.x()), 0, field_.width() - 1),
-        std::clamp(static_cast<int>(middle.y()), 0, field_.height() - 1)));
+    const int density_level =
+        field_.DensityLevel(OrientedDistanceField::DirectionOf(d.x(), d.y()),
+                            std::clamp(static_cast<int>(middle.x()), 0, field_.width() - 1),
+                            std::clamp(static_cast<int>(middle.y()), 0, field_.height() - 1));
+    if (density_level == OrientedDistanceField::kHiddenLevel) continue;
+    const double density = OrientedDistanceField::DensityOfLevel(density_level);
     const double sigma_px = 0.5 * (match.sigma_a_px + match.sigma_b_px);
     match.odds = seen / (1.0 - seen) * std::sqrt(2.0 / std::numbers::pi) / sigma_px /
                  (2.0 * density);

@@ -32,7 +32,7 @@ struct ScoreOptions {
   // Weights of the cues, in the order of kCueNames: the maximum likelihood of the dev queries
   // (docs/scores.md has the command).
   std::vector<double> weights = {
-      0.101, 0.029, 0.029, 0.106, 0.080, 3.3, 0.86, 45.0, 0.0127};
+      0.099, 0.082, 0.033, 0.15, 0.277, 4.63, 1.09, 29.4, 0.0214};
   EvidenceOptions evidence;
   LineEnergyOptions line_energy;
   OrientedChamferOptions oriented_chamfer;

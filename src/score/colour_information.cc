@@ -43,7 +43,8 @@ void ColourOptions::Validate() const {
 
 ColourInformation::ColourInformation(const cv::Mat& bgr,
                                      const PinholeCamera& camera,
-                                     const ColourOptions& options)
+                                     const ColourOptions& options,
+                                     const cv::Mat& hidden)
     : camera_(camera.Scaled(static_cast<double>(options.columns) / camera.width)) {
   cv::Mat cells;
   cv::resize(bgr, cells, cv::Size(camera_.width, camera_.height), 0.0, 0.0, cv::INTER_AREA);
@@ -69,6 +70,13 @@ ColourInformation::ColourInformation(const cv::Mat& bgr,
   }
   has_colours_ =
       std::adjacent_find(colours_.begin(), colours_.end(), std::not_equal_to<>()) != colours_.end();
+  if (!hidden.empty()) {
+    cv::Mat hidden_cells;
+    cv::resize(hidden, hidden_cells, cells.size(), 0.0, 0.0, cv::INTER_AREA);
+    for (std::size_t i = 0; i < colours_.size(); ++i) {
+      if (hidden_cells.ptr()[i] > 127) colours_[i] = kHidden;
+    }
+  }
 
   nodes_across_ = (camera_.width - 1) / kBlock + 2;
   nodes_down_ = (camera_.height - 1) / kBlock + 2;
@@ -107,7 +115,7 @@ ColourInformation::Cues ColourInformation::Of(std::span<const std::uint16_t> gro
   in_view.clear();
   for (std::size_t cell = 0; cell < colours_.size(); ++cell) {
     const std::uint16_t g = groups[cell];
-    if (g == kNoGroup) continue;
+    if (g == kNoGroup || colours_[cell] == kHidden) continue;
     if (of_group[g]++ == 0) in_view.push_back(g);
     ++joint[g * std::size_t{kColours} + colours_[cell]];
   }

@@ -49,7 +49,11 @@ class ColourInformation {
   };
 
   // @param bgr  CV_8UC3; @param camera  of the picture.
-  ColourInformation(const cv::Mat& bgr, const PinholeCamera& camera, const ColourOptions& options);
+  // @param hidden  CV_8U, as large; not 0 where something hides the surfaces. Empty: nowhere.
+  ColourInformation(const cv::Mat& bgr,
+                    const PinholeCamera& camera,
+                    const ColourOptions& options,
+                    const cv::Mat& hidden = {});
 
   Cues Of(const SurfacePanorama& surfaces,
           const SurfaceGroups& groups,
@@ -74,10 +78,11 @@ class ColourInformation {
   // Cells between nodes.
   static constexpr int kBlock = 4;
   static constexpr int kColours = kLumaBins * kChromaBins * kChromaBins;
+  static constexpr std::uint8_t kHidden = kColours;
 
   PinholeCamera camera_;
   bool has_colours_ = false;
-  std::vector<std::uint8_t> colours_;  // bins, by cell
+  std::vector<std::uint8_t> colours_;  // bins, by cell; or kHidden
   // Rays (camera axes) through the centres of every fourth cell of every fourth row, and of one
   // cell and row beyond; four of them side by side.
   int nodes_across_ = 0;

@@ -47,20 +47,19 @@ LineLikelihood::LineLikelihood(const OrientedDistanceField& field,
       spacing_px_(static_cast<float>(options.spacing_width * field.width())),
       sigma_px_(static_cast<float>(options.sigma_width * field.width())),
       sigma_model_px_m_(static_cast<float>(options.sigma_model_m * camera.fx)),
-      table_(static_cast<std::size_t>(kEdgeKinds) * kSigmaLevels *
-             OrientedDistanceField::kDensityLevels * kDistances) {
-  std::size_t i = 0;
+      table_(static_cast<std::size_t>(kEdgeKinds) * kSigmaLevels * kDensityLevels * kDistances) {
+  float* ratio = table_.data();
   for (int kind = 0; kind < kEdgeKinds; ++kind) {
-    for (int level = 0; level < kSigmaLevels; ++level) {
-      const double sigma_px = kSmallestSigmaPx * std::pow(kSigmaRatio, level);
-      for (int density = 0; density < OrientedDistanceField::kDensityLevels; ++density) {
+    for (int sigma = 0; sigma < kSigmaLevels; ++sigma) {
+      const double sigma_px = kSmallestSigmaPx * std::pow(kSigmaRatio, sigma);
+      for (int level = 0; level < OrientedDistanceField::kDensityLevels; ++level) {
+        const double density = OrientedDistanceField::DensityOfLevel(level);
         for (int units = 0; units < kDistances; ++units) {
-          table_[i++] = static_cast<float>(LogRatioOf(units,
-                                                      sigma_px,
-                                                      OrientedDistanceField::DensityOfLevel(density),
-                                                      options.seen_share[kind]));
+          *ratio++ = static_cast<float>(
+              LogRatioOf(units, sigma_px, density, options.seen_share[kind]));
         }
       }
+      ratio += kDistances;  // hidden: 0
     }
   }
 }

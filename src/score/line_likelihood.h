@@ -17,8 +17,8 @@ struct LineLikelihoodOptions {
   std::vector<double> seen_share = {0.6, 0.5, 0.5, 0.2, 0.3};
   // Standard deviation of a detected line about the projected edge: of the detection [share of the
   // picture's width] and of the model across the edge [m].
-  double sigma_width = 0.0025;
-  double sigma_model_m = 0.25;
+  double sigma_width = 0.004;
+  double sigma_model_m = 0.3;
   // Spacing of samples along an edge [share of the picture's width].
   double spacing_width = 0.008;
 
@@ -35,7 +35,7 @@ struct LineLikelihoodOptions {
 // the density rho [px / px^2] that the picture has there. The nearest line to a sample of an edge is
 // the edge's own, seen with probability v and half-normal distance h (wider towards the camera: model
 // errors are metres, not pixels), or the nearest random one, exponential with 2 rho. Its distance d
-// then counts log(1 - v + v * (h(d) / (2 rho) + P_h(> d))).
+// then counts log(1 - v + v * (h(d) / (2 rho) + P_h(> d))), or 0 where something hides the edge.
 class LineLikelihood {
  public:
   LineLikelihood(const OrientedDistanceField& field,
@@ -50,10 +50,10 @@ class LineLikelihood {
  private:
   static constexpr int kSigmaLevels = 12;
   static constexpr int kDistances = 256;
+  static constexpr int kDensityLevels = OrientedDistanceField::kHiddenLevel + 1;
 
   const float* Table(EdgeKind kind, int sigma_level, int density_level) const {
-    return &table_[((static_cast<std::size_t>(kind) * kSigmaLevels + sigma_level) *
-                        OrientedDistanceField::kDensityLevels +
+    return &table_[((static_cast<std::size_t>(kind) * kSigmaLevels + sigma_level) * kDensityLevels +
                     density_level) *
                    kDistances];
   }

@@ -50,7 +50,8 @@ float OrientedDistanceField::DensityOfLevel(int level) {
 OrientedDistanceField::OrientedDistanceField(const std::vector<LineSegment>& segments,
                                              int width,
                                              int height,
-                                             int threads)
+                                             int threads,
+                                             const cv::Mat& hidden)
     : width_(width),
       height_(height),
       cell_columns_((width + kDensityCellPx - 1) / kDensityCellPx),
@@ -62,6 +63,10 @@ OrientedDistanceField::OrientedDistanceField(const std::vector<LineSegment>& seg
     return cv::Point(static_cast<int>(std::lround((p.x() - 0.5f) * (1 << kShift))),
                      static_cast<int>(std::lround((p.y() - 0.5f) * (1 << kShift))));
   };
+  cv::Mat hidden_cells;
+  if (!hidden.empty()) {
+    cv::resize(hidden, hidden_cells, cv::Size(cell_columns_, cell_rows_), 0.0, 0.0, cv::INTER_AREA);
+  }
   ParallelFor(kDirections, threads, [&](std::size_t index) {
     const int direction = static_cast<int>(index);
     const std::span<std::uint8_t> pixels(
@@ -80,11 +85,14 @@ OrientedDistanceField::OrientedDistanceField(const std::vector<LineSegment>& seg
     cv::Mat density;
     free_share.convertTo(density, CV_32F, -1.0 / 255.0, 1.0);
     cv::GaussianBlur(density, density, cv::Size(), kDensitySigmaPx / kDensityCellPx);
+    std::uint8_t* levels =
+        &densities_[static_cast<std::size_t>(direction) * cell_rows_ * cell_columns_];
     for (int i = 0; i < cell_rows_ * cell_columns_; ++i) {
       const double rho = std::max<double>(density.ptr<float>()[i], kSmallestDensity);
       const double level = std::log(rho / kSmallestDensity) / std::log(kLevelRatio);
-      densities_[static_cast<std::size_t>(direction) * cell_rows_ * cell_columns_ + i] =
-          static_cast<std::uint8_t>(std::clamp(std::lround(level), 0L, kDensityLevels - 1L));
+      const bool is_hidden = !hidden_cells.empty() && hidden_cells.ptr()[i] > 127;
+      levels[i] = static_cast<std::uint8_t>(
+          is_hidden ? kHiddenLevel : std::clamp(std::lround(level), 0L, kDensityLevels - 1L));
     }
     TruncatedDistance(pixels, width, height);
   });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <opencv2/core/mat.hpp>
 #include <vector>
 
 #include "lines/line_segment.h"
@@ -16,13 +17,17 @@ class OrientedDistanceField {
   static constexpr int kDirections = 18;        // of 10 degrees
   static constexpr float kUnitsPerPx = 8.0f;    // distances are stored in 1/8 px, up to 31.9 px
   static constexpr int kDensityLevels = 16;     // see DensityOfLevel
+  static constexpr int kHiddenLevel = kDensityLevels;
   static constexpr int kDensityCellPx = 8;
 
   // Segments [px of an image width x height]. The directions are computed in parallel.
+  // @param hidden  CV_8U, of the image; not 0 where something hides what could be seen, whose lines
+  //                say nothing. Empty: nowhere.
   OrientedDistanceField(const std::vector<LineSegment>& segments,
                         int width,
                         int height,
-                        int threads);
+                        int threads,
+                        const cv::Mat& hidden = {});
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -36,6 +41,7 @@ class OrientedDistanceField {
   std::uint8_t Distance(int direction, int x, int y) const {
     return distances_[(static_cast<std::size_t>(direction) * height_ + y) * width_ + x];
   }
+  // Below kDensityLevels, or kHiddenLevel.
   std::uint8_t DensityLevel(int direction, int x, int y) const {
     return densities_[(static_cast<std::size_t>(direction) * cell_rows_ + y / kDensityCellPx) *
                           cell_columns_ +

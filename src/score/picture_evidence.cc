@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "score/foliage_mask.h"
 #include "score/sky_score.h"
 
 namespace ridgeline {
@@ -36,6 +37,15 @@ std::vector<LineSegment> WorkSegments(const cv::Mat& reduced,
     segment.b = segment.b.cwiseProduct(scale);
   }
   return segments;
+}
+
+// Leaves may be before sky or before a building.
+cv::Mat SkyLogOddsOf(const cv::Mat& reduced, const cv::Mat& foliage) {
+  cv::Mat log_odds = SkyLogOdds(reduced, SkyLikelihoodOptions{});
+  cv::Mat covered;
+  cv::resize(foliage, covered, log_odds.size(), 0.0, 0.0, cv::INTER_AREA);
+  log_odds.setTo(0.0f, covered > 127);
+  return log_odds;
 }
 
 }  // namespace
@@ -76,11 +86,12 @@ PictureEvidence::PictureEvidence(const cv::Mat& reduced,
                                  const std::optional<std::vector<LineSegment>>& given_lines)
     : camera_(work),
       segments_(WorkSegments(reduced, work, full, lines, given_lines)),
-      field_(segments_, work.width, work.height, threads),
+      foliage_(FoliageMask(reduced)),
+      field_(segments_, work.width, work.height, threads, foliage_),
       line_options_(options.lines),
       facades_(segments_, camera_, options.facades),
-      colours_(reduced, camera_, options.colours),
-      sky_(SkyLogOdds(reduced, SkyLikelihoodOptions{}), options.sky),
+      colours_(reduced, camera_, options.colours, foliage_),
+      sky_(SkyLogOddsOf(reduced, foliage_), options.sky),
       sky_camera_(camera_.Scaled(static_cast<double>(sky_.columns()) / camera_.width)) {}
 
 LineLikelihood PictureEvidence::Lines(double tolerance_factor) const {

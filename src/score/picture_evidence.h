@@ -104,6 +104,7 @@ class PictureEvidence {
 
   PinholeCamera camera_;
   std::vector<LineSegment> segments_;
+  cv::Mat foliage_;  // hides what is behind; of the reduced picture
   OrientedDistanceField field_;
   LineLikelihoodOptions line_options_;
   FacadeDirections facades_;

@@ -101,6 +101,21 @@ TEST_F(ColoursOfAPicture, NoiseAloneIsNearOne) {
   EXPECT_GT(EnergyOf(noise, 32, 20, 44), 0.99);
 }
 
+TEST_F(ColoursOfAPicture, HiddenCellsCountAsNotKnown) {
+  cv::Mat hidden = cv::Mat::zeros(picture_.size(), CV_8U);
+  hidden(cv::Rect(250, 100, 100, 300)).setTo(255);  // cells 25 to 34, 10 to 39
+  const ColourInformation seen(picture_, camera_, kGrid);
+  const ColourInformation partly(picture_, camera_, kGrid, hidden);
+  const Groups groups = Regions(seen, 32, 22, 46);
+  Groups known = groups;
+  for (int y = 10; y < 40; ++y) {
+    for (int x = 25; x < 35; ++x) known[y * 64 + x] = kNoGroup;
+  }
+  EXPECT_EQ(CuesOf(partly, groups).regions, CuesOf(seen, known).regions);
+  EXPECT_EQ(CuesOf(partly, groups).facades, CuesOf(seen, known).facades);
+  EXPECT_NE(CuesOf(partly, groups).regions, CuesOf(seen, groups).regions);
+}
+
 // Two walls of different colours, side by side.
 class TwoWalls : public ColoursOfAPicture {
  protected:

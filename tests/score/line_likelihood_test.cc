@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <opencv2/core.hpp>
 
 namespace ridgeline {
 namespace {
@@ -95,6 +96,24 @@ TEST(LineLikelihood, AHitInClutterCountsLess) {
   const OrientedDistanceField alone({line}, kWidth, kHeight, 1);
   const OrientedDistanceField among(clutter, kWidth, kHeight, 1);
   EXPECT_LT(RatioOfHorizontal(among, 150.5f), RatioOfHorizontal(alone, 150.5f));
+}
+
+TEST(LineLikelihood, WhereSomethingHidesTheEdgeItCountsNothing) {
+  const std::vector<LineSegment> lines = {{{100, 150.5f}, {300, 150.5f}, 1.0f}};
+  cv::Mat hidden = cv::Mat::zeros(kHeight, kWidth, CV_8U);
+  const OrientedDistanceField free(lines, kWidth, kHeight, 1, hidden);
+  hidden.colRange(0, 200).setTo(255);
+  const OrientedDistanceField half(lines, kWidth, kHeight, 1, hidden);
+  hidden.setTo(255);
+  const OrientedDistanceField none(lines, kWidth, kHeight, 1, hidden);
+  const OrientedDistanceField seen(lines, kWidth, kHeight, 1);
+  for (const float y : {150.5f, 153.5f, 250.5f}) {
+    const double all = RatioOfHorizontal(seen, y);
+    EXPECT_EQ(RatioOfHorizontal(free, y), all);
+    // The line runs from 100 to 300.
+    EXPECT_NEAR(RatioOfHorizontal(half, y), 0.5 * all, 0.02 * std::abs(all));
+    EXPECT_EQ(RatioOfHorizontal(none, y), 0.0);
+  }
 }
 
 TEST(LineLikelihood, NoSegmentsCountNothing) {
