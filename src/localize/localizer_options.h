@@ -32,7 +32,7 @@ struct ScoreOptions {
   // Weights of the cues, in the order of kCueNames: the maximum likelihood of the dev queries
   // (docs/scores.md has the command).
   std::vector<double> weights = {
-      0.099, 0.082, 0.033, 0.15, 0.277, 4.63, 1.09, 29.4, 0.0214};
+      0.097, 0.077, 0.039, 0.147, 0.279, 4.44, 1.08, 29.8, 0.0218};
   EvidenceOptions evidence;
   LineEnergyOptions line_energy;
   OrientedChamferOptions oriented_chamfer;
