@@ -88,10 +88,10 @@ struct ConfidenceOptions {
   double offset = 0.0;
   double slope = 1.0;
   // Widens the posterior, since samples of a picture are correlated.
-  double temperature = 1.0;
+  double temperature = 1.15;
   // Least standard deviations, of what the map cannot resolve.
-  double floor_m = 0.4;
-  double floor_deg = 0.4;
+  double floor_m = 0.5;
+  double floor_deg = 0.5;
 
   void Visit(OptionVisitor& v);
   void Validate() const;
