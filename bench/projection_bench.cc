@@ -17,6 +17,7 @@
 #include "projection/surface_panorama.h"
 #include "projection/visibility_cache.h"
 #include "projection/zbuffer_hough.h"
+#include "support/source_folder.h"
 #include "support/synthetic_city.h"
 
 namespace ridgeline {
@@ -50,7 +51,7 @@ World Town(int blocks) {
 }
 
 World Munich(bool with_terrain) {
-  const std::filesystem::path folder = std::string(RIDGELINE_SOURCE_DIR) + "/../shared/data/munich";
+  const std::filesystem::path folder = std::string(kSourceFolder) + "/../shared/data/munich";
   if (!std::filesystem::exists(folder)) return Town(14);
   World world;
   world.model = std::make_unique<CityModel>(

@@ -37,9 +37,8 @@ function(ridgeline_add_tests name)
   add_executable(${name}_tests ${ARG_SOURCES})
   target_link_libraries(${name}_tests PRIVATE ${ARG_LIBS} ridgeline_flags GTest::gtest GTest::gmock
                                               GTest::gtest_main)
-  target_include_directories(${name}_tests PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-  target_compile_definitions(${name}_tests
-                             PRIVATE RIDGELINE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_include_directories(${name}_tests PRIVATE ${PROJECT_SOURCE_DIR}/tests
+                                                   ${PROJECT_BINARY_DIR}/generated)
   include(GoogleTest)
   gtest_discover_tests(${name}_tests TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 120
                        PROPERTIES TIMEOUT 300)
@@ -51,5 +50,5 @@ function(ridgeline_add_bench name)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} ridgeline_flags benchmark::benchmark
                                         benchmark::benchmark_main)
-  target_compile_definitions(${name} PRIVATE RIDGELINE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_include_directories(${name} PRIVATE ${PROJECT_BINARY_DIR}/generated)
 endfunction()

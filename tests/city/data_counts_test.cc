@@ -11,13 +11,14 @@
 #include "city/city_text.h"
 #include "city/read_city.h"
 #include "city/xml_count.h"
+#include "support/source_folder.h"
 
 namespace ridgeline::testing {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kData = fs::path(RIDGELINE_SOURCE_DIR) / "../shared/data";
+const fs::path kData = fs::path(kSourceFolder) / "../shared/data";
 
 std::vector<fs::path> CityGmlFiles() {
   std::vector<fs::path> files;

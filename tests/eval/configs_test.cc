@@ -6,11 +6,12 @@
 #include "base/atomic_file.h"
 #include "base/options.h"
 #include "localize/localizer_options.h"
+#include "support/source_folder.h"
 
 namespace ridgeline {
 namespace {
 
-const std::filesystem::path kConfigs = std::filesystem::path(RIDGELINE_SOURCE_DIR) / "configs";
+const std::filesystem::path kConfigs = std::filesystem::path(kSourceFolder) / "configs";
 
 TEST(Configs, DefaultIsADumpOfTheDefaults) {
   LocalizerOptions options;

@@ -12,6 +12,7 @@
 #include "base/random.h"
 #include "city/read_city.h"
 #include "projection/scene.h"
+#include "support/source_folder.h"
 #include "support/synthetic_city.h"
 
 namespace ridgeline {
@@ -182,7 +183,7 @@ TEST(VisibleFrom, EndsAreExactToATenthOfAPixel) {
 }
 
 TEST(VisibleFrom, AgreesWithBruteForceInMunich) {
-  const std::filesystem::path folder = std::string(RIDGELINE_SOURCE_DIR) + "/../shared/data/munich";
+  const std::filesystem::path folder = std::string(kSourceFolder) + "/../shared/data/munich";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not there";
   const CityModel model =
       ReadCity({folder / "tum_campus_lod2.gml", folder / "tum_south_lod2.gml"}, {});
