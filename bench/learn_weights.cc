@@ -9,14 +9,16 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <numbers>
+#include <span>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "eval/bench.h"
 #include "eval/world.h"
+#include "localize/pose_scorer.h"
 #include "localize/pose_space.h"
+#include "score/evidence_score.h"
 
 namespace ridgeline {
 namespace {
@@ -32,7 +34,7 @@ struct Settings {
 
 // The cues of all poses of one search box.
 struct Box {
-  std::vector<CueVector> cues;
+  std::vector<std::vector<float>> cues;
   std::vector<bool> is_near;  // within 2 m and 2 degrees of the truth
 };
 
@@ -45,37 +47,36 @@ struct Grid {
 };
 
 void AddPoses(const Grid& grid,
-              const Query& query,
-              int seed,
-              const PictureEvidence& evidence,
+              const PosePrior& prior,
+              const Pose& truth_in_world,
+              const EvidenceScore& evidence,
+              const PictureEvidence& picture,
               const Localizer& localizer,
-              const Settings& settings,
               Box& box) {
   constexpr double kFarM = 5.0;
   constexpr double kFarDeg = 10.0;
-  const LineLikelihood lines = evidence.Lines(1.0);
-  const PosePrior prior =
-      DrawPrior(*query.truth, ParsePerturbation(settings.perturb), seed, query.id);
   const PoseSpace space(
       prior, grid.ranges, localizer.scene(), localizer.dtm(), localizer.footprints());
+  const PoseScorer scorer(evidence,
+                          localizer.scene(),
+                          space,
+                          picture.camera(),
+                          localizer.options().score.evidence.surface_step_deg);
   const PanoramaRange range =
-      RangeOf(evidence.camera(),
-              space.center_angles(),
-              {grid.ranges.heading_deg, 0.0, 0.0},
-              settings.options.score.evidence.surface_step_deg * std::numbers::pi / 180.0);
+      scorer.RangeAround(space.center_angles(), {grid.ranges.heading_deg, 0.0, 0.0});
   const int east = static_cast<int>(grid.ranges.east_m);
   const int north = static_cast<int>(grid.ranges.north_m);
   const int heading = static_cast<int>(grid.ranges.heading_deg);
-  Pose truth = *query.truth;
+  Pose truth = truth_in_world;
   truth.center_in_world -= localizer.scene().model().origin_in_world;
   std::vector<Box> rows(static_cast<std::size_t>(2 * north / grid.spacing_m + 1));
   ParallelFor(rows.size(), 0, [&](std::size_t row) {
-    PictureEvidence::Workspace workspace;
+    PoseScorer::Look look(scorer);
     const int n = grid.spacing_m * static_cast<int>(row) - north;
     for (int e = -east; e <= east; e += grid.spacing_m) {
       const auto position = space.PositionAt(e, n, 0.0);
       if (!position) continue;
-      const PositionView view = ViewFrom(localizer.scene(), *position, range, {});
+      look.From(*position, range);
       for (int h = -heading; h <= heading; h += grid.heading_step_deg) {
         PoseSpace::Offset offset;
         offset.heading_deg = h;
@@ -83,8 +84,8 @@ void AddPoses(const Grid& grid,
         const PoseError error = ErrorOf(pose, truth);
         const bool is_far = error.translation_m > kFarM || error.rotation_deg > kFarDeg;
         if (!grid.includes_truth && !is_far) continue;
-        rows[row].cues.push_back(
-            evidence.Cues(view, localizer.scene().model(), pose, lines, workspace));
+        const std::span<const float> cues = evidence.Cues(look.view(), pose, look.workspace());
+        rows[row].cues.emplace_back(cues.begin(), cues.end());
         rows[row].is_near.push_back(error.translation_m <= 2.0 && error.rotation_deg <= 2.0);
       }
     }
@@ -99,40 +100,44 @@ void AddPoses(const Grid& grid,
 Box BoxOf(const Query& query, int seed, const Localizer& localizer, const Settings& settings) {
   const LocalizerOptions& options = settings.options;
   const LocalizationInput input = InputOf(query, options);
-  const PictureEvidence evidence(UndistortImage(BgrOf(input.picture), input.camera),
-                                 input.camera.Pinhole(),
-                                 options.lines,
-                                 options.score.evidence,
-                                 0,
-                                 input.lines);
+  const PictureEvidence picture(UndistortImage(BgrOf(input.picture), input.camera),
+                                input.camera.Pinhole(),
+                                options.lines,
+                                options.score.evidence,
+                                0,
+                                input.lines);
+  const EvidenceScore evidence({picture, localizer.scene(), options.score.evidence.cues},
+                               options.score.weights);
+  const Perturbation perturb = ParsePerturbation(settings.perturb);
+  const PosePrior prior = DrawPrior(*query.truth, perturb, seed, query.id);
   Grid dense;
-  dense.ranges = RangesOf(options.search.space, ParsePerturbation(settings.perturb));
+  dense.ranges = RangesOf(options.search.space, perturb);
   Grid decoys{dense.ranges, 4, 6, false};
   decoys.ranges.east_m = decoys.ranges.north_m = 40.0;
   decoys.ranges.heading_deg = 180.0;
   Box box;
   for (const Grid& grid : {dense, decoys}) {
-    AddPoses(grid, query, seed, evidence, localizer, settings, box);
+    AddPoses(grid, prior, *query.truth, evidence, picture, localizer, box);
   }
   return box;
 }
 
 // Standard deviation of each cue over the poses of all boxes.
-std::array<double, kCues> SpreadsOf(const std::vector<Box>& boxes) {
-  std::array<double, kCues> sums{};
-  std::array<double, kCues> squares{};
+std::vector<double> SpreadsOf(const std::vector<Box>& boxes, std::size_t cues_of_pose) {
+  std::vector<double> sums(cues_of_pose, 0.0);
+  std::vector<double> squares(cues_of_pose, 0.0);
   double count = 0.0;
   for (const Box& box : boxes) {
     count += static_cast<double>(box.cues.size());
-    for (const CueVector& cues : box.cues) {
-      for (int k = 0; k < kCues; ++k) {
+    for (const std::vector<float>& cues : box.cues) {
+      for (std::size_t k = 0; k < cues_of_pose; ++k) {
         sums[k] += cues[k];
         squares[k] += static_cast<double>(cues[k]) * cues[k];
       }
     }
   }
-  std::array<double, kCues> spreads;
-  for (int k = 0; k < kCues; ++k) {
+  std::vector<double> spreads(cues_of_pose);
+  for (std::size_t k = 0; k < cues_of_pose; ++k) {
     const double mean = sums[k] / count;
     spreads[k] = std::sqrt(std::max(squares[k] / count - mean * mean, 1e-12));
   }
@@ -145,32 +150,33 @@ std::array<double, kCues> SpreadsOf(const std::vector<Box>& boxes) {
 // log w_k.
 class Loss final : public ceres::FirstOrderFunction {
  public:
-  Loss(const std::vector<Box>& boxes, double ridge)
-      : boxes_(boxes), spreads_(SpreadsOf(boxes)), ridge_(ridge) {}
+  Loss(const std::vector<Box>& boxes, std::size_t cues_of_pose, double ridge)
+      : boxes_(boxes), spreads_(SpreadsOf(boxes, cues_of_pose)), ridge_(ridge) {}
 
-  int NumParameters() const override { return kCues; }
+  int NumParameters() const override { return static_cast<int>(spreads_.size()); }
 
   bool Evaluate(const double* logs, double* cost, double* gradient) const override {
     constexpr double kUniformShare = 0.03;
-    std::array<double, kCues> weights;
-    for (int k = 0; k < kCues; ++k) weights[k] = std::exp(logs[k]);
+    const std::size_t count = spreads_.size();
+    std::vector<double> weights(count);
+    for (std::size_t k = 0; k < count; ++k) weights[k] = std::exp(logs[k]);
     *cost = 0.0;
-    std::array<double, kCues> slope{};
+    std::vector<double> slope(count, 0.0);
     for (const Box& box : boxes_) {
       std::vector<double> sums(box.cues.size(), 0.0);
       for (std::size_t i = 0; i < sums.size(); ++i) {
-        for (int k = 0; k < kCues; ++k) sums[i] += weights[k] * box.cues[i][k];
+        for (std::size_t k = 0; k < count; ++k) sums[i] += weights[k] * box.cues[i][k];
       }
       const double highest = *std::max_element(sums.begin(), sums.end());
       double total = 0.0;
       double near = 0.0;
-      std::array<double, kCues> all_mean{};
-      std::array<double, kCues> near_mean{};
+      std::vector<double> all_mean(count, 0.0);
+      std::vector<double> near_mean(count, 0.0);
       for (std::size_t i = 0; i < sums.size(); ++i) {
         const double p = std::exp(sums[i] - highest);
         total += p;
         if (box.is_near[i]) near += p;
-        for (int k = 0; k < kCues; ++k) {
+        for (std::size_t k = 0; k < count; ++k) {
           all_mean[k] += p * box.cues[i][k];
           if (box.is_near[i]) near_mean[k] += p * box.cues[i][k];
         }
@@ -181,28 +187,37 @@ class Loss final : public ceres::FirstOrderFunction {
           static_cast<double>(sums.size());
       const double mixed = (1.0 - kUniformShare) * share + kUniformShare * near_share;
       *cost -= std::log(mixed) / static_cast<double>(boxes_.size());
-      for (int k = 0; k < kCues; ++k) {
+      for (std::size_t k = 0; k < count; ++k) {
         const double d = near_mean[k] / total - share * all_mean[k] / total;
         slope[k] -= (1.0 - kUniformShare) * d / mixed / static_cast<double>(boxes_.size());
       }
     }
-    for (int k = 0; k < kCues; ++k) {
+    for (std::size_t k = 0; k < count; ++k) {
       *cost += ridge_ * weights[k] * weights[k] * spreads_[k] * spreads_[k];
       slope[k] += 2.0 * ridge_ * weights[k] * spreads_[k] * spreads_[k];
     }
     if (gradient != nullptr) {
-      for (int k = 0; k < kCues; ++k) gradient[k] = slope[k] * weights[k];
+      for (std::size_t k = 0; k < count; ++k) gradient[k] = slope[k] * weights[k];
     }
     return true;
   }
 
  private:
   const std::vector<Box>& boxes_;
-  std::array<double, kCues> spreads_;
+  std::vector<double> spreads_;
   double ridge_;
 };
 
+// The weight that a cue's is learned from.
+double Start(const Settings& settings, const std::string& cue) {
+  const double weight = settings.options.score.weights.at(cue);
+  if (weight > 0.0) return weight;
+  throw InputError(
+      "", "score.weights." + cue, std::to_string(weight), "> 0, where learning begins");
+}
+
 void Learn(const Settings& settings) {
+  for (const std::string& cue : CueNames()) Start(settings, cue);
   std::vector<Box> boxes;
   for (const std::string& path : settings.datasets) {
     const Dataset dataset = ReadDataset(path);
@@ -225,9 +240,10 @@ void Learn(const Settings& settings) {
   if (boxes.empty())
     throw InputError(settings.datasets.front(), "", "no queries with truth", "some");
 
-  std::array<double, kCues> logs;
-  for (int k = 0; k < kCues; ++k) logs[k] = std::log(settings.options.score.weights[k]);
-  const ceres::GradientProblem problem(new Loss(boxes, settings.ridge));
+  const std::vector<std::string> names = CueNames();
+  std::vector<double> logs;
+  for (const std::string& name : names) logs.push_back(std::log(Start(settings, name)));
+  const ceres::GradientProblem problem(new Loss(boxes, names.size(), settings.ridge));
   ceres::GradientProblemSolver::Options solver;
   solver.max_num_iterations = 200;
   ceres::GradientProblemSolver::Summary summary;
@@ -236,11 +252,11 @@ void Learn(const Settings& settings) {
               boxes.size(),
               summary.initial_cost,
               summary.final_cost);
-  nlohmann::ordered_json weights = nlohmann::ordered_json::array();
-  for (int k = 0; k < kCues; ++k) {
+  nlohmann::ordered_json weights = nlohmann::ordered_json::object();
+  for (std::size_t k = 0; k < names.size(); ++k) {
     const double weight = std::round(1e4 * std::exp(logs[k])) / 1e4;
-    std::printf("  %-14s %.4f\n", kCueNames[k], weight);
-    weights.push_back(weight);
+    std::printf("  %-14s %.4f\n", names[k].c_str(), weight);
+    weights[names[k]] = weight;
   }
   if (!settings.out.empty()) {
     WriteFileAtomically(settings.out,

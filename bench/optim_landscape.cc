@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "landscape.h"
 #include "optim/minimize.h"
+#include "optim/sampler_table.h"
 
 namespace ridgeline {
 namespace {

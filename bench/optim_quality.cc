@@ -7,6 +7,7 @@
 #include <string>
 
 #include "optim/minimize.h"
+#include "optim/sampler_table.h"
 #include "optim_functions.h"
 
 namespace ridgeline {

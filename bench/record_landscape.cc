@@ -4,15 +4,16 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <sstream>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "eval/bench.h"
 #include "eval/world.h"
-#include "localize/make_score.h"
+#include "localize/pose_scorer.h"
 #include "localize/pose_volume.h"
+#include "score/picture_evidence.h"
+#include "score/score_table.h"
 
 namespace ridgeline {
 namespace {
@@ -55,24 +56,20 @@ void Record(const Query& query, const Localizer& localizer, const Settings& sett
   ranges.height_m = ranges.pitch_deg = ranges.roll_deg = 0.0;
 
   const LocalizerOptions& options = localizer.options();
-  const cv::Mat bgr = UndistortImage(BgrOf(input.picture), input.camera);
-  const PictureEvidence evidence(
-      bgr, input.camera.Pinhole(), options.lines, options.score.evidence, settings.threads,
-      input.lines);
-  const auto score = MakeScore(options.score, evidence, bgr, input.camera.Pinhole(), localizer.scene(), 1.0);
+  const PictureEvidence picture(UndistortImage(BgrOf(input.picture), input.camera),
+                                input.camera.Pinhole(),
+                                options.lines,
+                                options.score.evidence,
+                                settings.threads,
+                                input.lines);
+  const auto score = MakeScore({picture, localizer.scene(), options.score});
   const PoseSpace space(
       input.prior, ranges, localizer.scene(), localizer.dtm(), localizer.footprints());
   const ViewAngles& center = space.center_angles();
   const std::vector<Tilt> level = {{center.pitch_deg, center.roll_deg, 0.0}};
-  const double step_rad = options.score.evidence.surface_step_deg * std::numbers::pi / 180.0;
-  const PoseVolume volume = ComputeVolume(*score,
-                                          localizer.scene(),
-                                          space,
-                                          evidence.camera(),
-                                          level,
-                                          step_rad,
-                                          options.search.map,
-                                          settings.threads);
+  const PoseScorer scorer(
+      *score, localizer.scene(), space, picture.camera(), options.score.evidence.surface_step_deg);
+  const PoseVolume volume = ComputeVolume(scorer, level, options.search.map, settings.threads);
   const auto path = std::filesystem::path(settings.folder) / (query.id + ".csv");
   WriteFileAtomically(path, CsvOf(volume));
   std::printf("%s: %zu poses\n", path.c_str(), volume.log_ratios.size());

@@ -67,7 +67,9 @@ class JsonReader final : public OptionVisitor {
     known_.emplace_back(name);
     const auto it = in_.find(std::string(name));
     if (it == in_.end()) return;
-    if (!it->is_object()) throw InputError(file_, Path(name), it->dump(), "an object { ... }");
+    if (!it->is_object()) {
+      throw InputError(file_, Path(name), it->dump(), "an object { " + FirstKey(fields) + "... }");
+    }
     JsonReader reader(*it, file_, Path(name));
     fields(reader);
     reader.RejectUnknown();
@@ -87,6 +89,14 @@ class JsonReader final : public OptionVisitor {
  private:
   std::string Path(std::string_view name) const {
     return prefix_.empty() ? std::string(name) : prefix_ + "." + std::string(name);
+  }
+
+  // What a group begins with, as an example.
+  static std::string FirstKey(const std::function<void(OptionVisitor&)>& fields) {
+    const Json none = Json::object();
+    JsonReader reader(none, "", "");
+    fields(reader);
+    return reader.known_.empty() ? "" : "\"" + reader.known_.front() + "\": ..., ";
   }
 
   template <typename T, typename Test>
@@ -113,7 +123,9 @@ std::string OptionsToJson(const VisitOptions& options) {
   return json.dump(2) + "\n";
 }
 
-void OptionsFromJson(const std::string& text, const std::string& file, const VisitOptions& options) {
+void OptionsFromJson(const std::string& text,
+                     const std::string& file,
+                     const VisitOptions& options) {
   Json json;
   try {
     json = Json::parse(text);

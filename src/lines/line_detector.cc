@@ -2,53 +2,15 @@
 #include "lines/line_detector.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/ximgproc/edge_drawing.hpp>
-#include <opencv2/ximgproc/fast_line_detector.hpp>
 #include <utility>
 
 #include "base/error.h"
+#include "lines/detector_table.h"
 
 namespace ridgeline {
 namespace {
-
-constexpr std::array kDetectors = {"lsd", "edlines", "fld", "hough", "file"};
-
-std::vector<cv::Vec4f> DetectLsd(const cv::Mat& gray) {
-  std::vector<cv::Vec4f> lines;
-  cv::createLineSegmentDetector(cv::LSD_REFINE_STD)->detect(gray, lines);
-  return lines;
-}
-
-std::vector<cv::Vec4f> DetectEdLines(const cv::Mat& gray) {
-  const auto detector = cv::ximgproc::createEdgeDrawing();
-  detector->detectEdges(gray);
-  std::vector<cv::Vec4f> lines;
-  detector->detectLines(lines);
-  return lines;
-}
-
-std::vector<cv::Vec4f> DetectFld(const cv::Mat& gray, const LineDetectionOptions& options) {
-  std::vector<cv::Vec4f> lines;
-  cv::ximgproc::createFastLineDetector(std::max(2, static_cast<int>(options.min_length_px)),
-                                       1.41421356f,
-                                       options.canny_low,
-                                       options.canny_high,
-                                       3,
-                                       false)
-      ->detect(gray, lines);
-  return lines;
-}
-
-std::vector<cv::Vec4f> DetectHough(const cv::Mat& gray, const LineDetectionOptions& options) {
-  cv::Mat edges;
-  cv::Canny(gray, edges, options.canny_low, options.canny_high);
-  std::vector<cv::Vec4i> found;
-  cv::HoughLinesP(edges, found, 1.0, CV_PI / 180.0, 30, options.min_length_px, 4.0);
-  return {found.begin(), found.end()};
-}
 
 // Mean directed gradient across a segment: positive where the right side of a -> b is brighter.
 float MeanGradientAcross(const cv::Mat& gray, const LineSegment& segment) {
@@ -93,17 +55,15 @@ Joint TryJoin(const LineSegment& base, const LineSegment& other, double max_gap_
   if (start < 0.0f) joint.joined.a = other.a;
   if (end > base_length) joint.joined.b = other.b;
   const float other_length = other.Length();
-  joint.joined.strength = (base.strength * base_length + other.strength * other_length) /
-                          (base_length + other_length);
+  joint.joined.strength =
+      (base.strength * base_length + other.strength * other_length) / (base_length + other_length);
   return joint;
 }
 
 }  // namespace
 
 void LineDetectionOptions::Validate() const {
-  if (std::find(kDetectors.begin(), kDetectors.end(), detector) == kDetectors.end()) {
-    throw InputError("", "lines.detector", "\"" + detector + "\"", "lsd, edlines, fld, hough or file");
-  }
+  if (detector != kLinesFromFile) FindDetector(detector);
   if (!(min_length_px > 0.0)) {
     throw InputError("", "lines.min_length_px", std::to_string(min_length_px), "> 0");
   }
@@ -120,14 +80,16 @@ cv::Mat GrayOf(const cv::Mat& picture) {
   if (picture.depth() == CV_16U) picture.convertTo(eight_bit, CV_8U, 1.0 / 257.0);
   if (eight_bit.channels() == 1) return eight_bit;
   cv::Mat gray;
-  cv::cvtColor(eight_bit, gray, eight_bit.channels() == 4 ? cv::COLOR_BGRA2GRAY : cv::COLOR_BGR2GRAY);
+  cv::cvtColor(
+      eight_bit, gray, eight_bit.channels() == 4 ? cv::COLOR_BGRA2GRAY : cv::COLOR_BGR2GRAY);
   return gray;
 }
 
 std::vector<LineSegment> MergeCollinear(std::vector<LineSegment> segments, double max_gap_px) {
-  std::stable_sort(segments.begin(), segments.end(), [](const LineSegment& x, const LineSegment& y) {
-    return x.Length() > y.Length();
-  });
+  std::stable_sort(
+      segments.begin(), segments.end(), [](const LineSegment& x, const LineSegment& y) {
+        return x.Length() > y.Length();
+      });
   std::vector<bool> used(segments.size(), false);
   std::vector<LineSegment> merged;
   for (std::size_t i = 0; i < segments.size(); ++i) {
@@ -151,11 +113,7 @@ std::vector<LineSegment> MergeCollinear(std::vector<LineSegment> segments, doubl
 
 std::vector<LineSegment> DetectLines(const cv::Mat& picture, const LineDetectionOptions& options) {
   const cv::Mat gray = GrayOf(picture);
-  std::vector<cv::Vec4f> lines;
-  if (options.detector == "lsd") lines = DetectLsd(gray);
-  if (options.detector == "edlines") lines = DetectEdLines(gray);
-  if (options.detector == "fld") lines = DetectFld(gray, options);
-  if (options.detector == "hough") lines = DetectHough(gray, options);
+  const std::vector<cv::Vec4f> lines = FindDetector(options.detector).detect(gray, options);
 
   std::vector<LineSegment> segments;
   segments.reserve(lines.size());

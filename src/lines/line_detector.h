@@ -10,9 +10,11 @@
 
 namespace ridgeline {
 
+// LineDetectionOptions::detector where the segments are given.
+inline constexpr char kLinesFromFile[] = "file";
+
 struct LineDetectionOptions {
-  // "lsd" (Grompone von Gioi et al. 2012), "edlines" (Akinlar and Topal 2011), "fld" (Lee et al.
-  // 2014), "hough" (Canny + probabilistic Hough), or "file" (the query's own segments).
+  // One of DetectorNames(), see detector_table.h, or "file" (the query's own segments).
   std::string detector = "lsd";
   // Shortest segment kept [px of the picture given to the detector], > 0.
   double min_length_px = 12.0;
@@ -34,14 +36,14 @@ struct LineDetectionOptions {
 };
 
 // Straight segments of a picture (any channels; 8 or 16 bit), in the order of the detector.
-// `options.detector` must not be "file".
+// `options.detector` must name a detector, not "file".
 std::vector<LineSegment> DetectLines(const cv::Mat& picture, const LineDetectionOptions& options);
 
 // One channel, 8 bit: colour by luma, 16 bit scaled down, an alpha channel dropped.
 cv::Mat GrayOf(const cv::Mat& picture);
 
-// Joins segments that continue each other: directions within 2 degrees, lateral offset within 1.5 px,
-// gap within `max_gap_px`. Longest first, deterministic.
+// Joins segments that continue each other: directions within 2 degrees, lateral offset within 1.5
+// px, gap within `max_gap_px`. Longest first, deterministic.
 std::vector<LineSegment> MergeCollinear(std::vector<LineSegment> segments, double max_gap_px);
 
 }  // namespace ridgeline

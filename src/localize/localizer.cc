@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "localize/localizer.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <functional>
-#include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <string>
+#include <utility>
 
 #include "base/error.h"
-#include "base/parallel.h"
-#include "localize/gravity.h"
-#include "localize/make_score.h"
-#include "localize/pose_volume.h"
+#include "localize/pose_scorer.h"
 #include "localize/posterior.h"
-#include "localize/refine_pose.h"
-#include "localize/sampled_search.h"
+#include "localize/search_poses.h"
 #include "localize/settle_pose.h"
+#include "score/line_likelihood.h"
+#include "score/picture_evidence.h"
+#include "score/score_table.h"
 
 namespace ridgeline {
 namespace {
@@ -63,25 +60,45 @@ void CheckInput(const LocalizationInput& input, const CityModel& model) {
           " and " + text(extent.max() + model.origin_in_world.head<2>()));
 }
 
-// Refines the first `count` modes, until those that are left could not become the best by gaining
-// half as much again as the most any has gained.
-void RefineWhileHopeful(const std::vector<ScoredPose>& modes,
-                        std::size_t count,
-                        const std::function<void(std::size_t first, std::size_t count)>& refine) {
-  constexpr std::size_t kAtATime = 2;  // not the number of threads: results must not depend on it
-  constexpr double kGainFactor = 1.5;
-  constexpr double kMargin = 2.0;
-  double best = modes.front().log_ratio;
-  double gain = 0.0;
-  for (std::size_t done = 0; done < count; done += kAtATime) {
-    if (modes[done].log_ratio + kGainFactor * gain + kMargin < best) break;
-    const std::size_t end = std::min(count, done + kAtATime);
-    const std::vector<ScoredPose> before(modes.begin() + done, modes.begin() + end);
-    refine(done, end - done);
-    for (std::size_t i = done; i < end; ++i) {
-      gain = std::max(gain, modes[i].log_ratio - before[i - done].log_ratio);
-      best = std::max(best, modes[i].log_ratio);
-    }
+Localization Abstained(Localization result, LocalizationStatus status, std::string reason) {
+  result.status = status;
+  result.reason = std::move(reason);
+  return result;
+}
+
+std::string TooFewLines(std::size_t lines) {
+  return "the picture shows " + std::to_string(lines) + " straight lines; " +
+         std::to_string(kMinLines) + " are the least";
+}
+
+std::string NoVisibleModel(const Score& score) {
+  const std::string unusable = score.unusable();
+  return unusable.empty() ? "no admissible pose of the search box sees the model" : unusable;
+}
+
+// The modes and what to believe of the best of them.
+void Believe(const SearchedPoses& found,
+             const PoseSpace& space,
+             const CityModel& model,
+             const ConfidenceOptions& options,
+             Localization& result) {
+  const Posterior posterior = found.volume ? PosteriorOf(*found.volume, found.modes, space, options)
+                                           : PosteriorOf(found.modes, options);
+  result.confidence = posterior.confidence;
+  result.spread = posterior.spread;
+  for (const ScoredPose& mode : found.modes) {
+    const std::optional<Pose> local = space.PoseAt(mode.offset);
+    result.modes.push_back({{local->cam_from_world, local->center_in_world + model.origin_in_world},
+                            Score::EnergyOf(mode.log_ratio)});
+  }
+  result.energy = result.modes.front().energy;
+  if (result.confidence < options.abstain_below) {
+    result.status = LocalizationStatus::kAmbiguous;
+    result.reason = "other poses explain the picture about as well (confidence " +
+                    std::to_string(result.confidence).substr(0, 4) + ")";
+  } else {
+    result.status = LocalizationStatus::kOk;
+    result.pose = result.modes.front().pose;
   }
 }
 
@@ -157,125 +174,49 @@ Localization Localizer::Localize(const LocalizationInput& input,
   Stopwatch watch;
   const auto lap = [&](const char* stage) { result.times.push_back({stage, watch.Lap()}); };
 
-  // The picture.
-  const cv::Mat bgr = UndistortImage(BgrOf(input.picture), input.camera);
-  const PinholeCamera camera = input.camera.Pinhole();
-  const PictureEvidence evidence(
-      bgr, camera, options.lines, options.score.evidence, threads, input.lines);
-  const std::unique_ptr<Score> score = MakeScore(options.score, evidence, bgr, camera, scene, 1.0);
+  // Look: at the picture.
+  const PictureEvidence picture(UndistortImage(BgrOf(input.picture), input.camera),
+                                input.camera.Pinhole(),
+                                options.lines,
+                                options.score.evidence,
+                                threads,
+                                input.lines);
+  const std::unique_ptr<Score> score = MakeScore({picture, scene, options.score});
   lap("picture");
-  if (evidence.segments().size() < kMinLines) {
-    result.status = LocalizationStatus::kTooFewLines;
-    result.reason = "the picture shows " + std::to_string(evidence.segments().size()) +
-                    " straight lines; " + std::to_string(kMinLines) + " are the least";
-    return result;
+  if (picture.segments().size() < kMinLines) {
+    return Abstained(std::move(result),
+                     LocalizationStatus::kTooFewLines,
+                     TooFewLines(picture.segments().size()));
   }
 
-  // The admissible box, and a look over all of it.
+  // Search: over all of the admissible box.
   const PoseSpace space(input.prior, ranges, scene, dtm(), impl_->footprints);
-  const double surface_step_rad =
-      options.score.evidence.surface_step_deg * std::numbers::pi / 180.0;
-  std::optional<PoseVolume> volume;
-  std::vector<ScoredPose> modes;
-  if (options.search.method == "map") {
-    const MapOptions& map = options.search.map;
-    constexpr double kTiltSeparationDeg = 1.0;
-    const std::vector<Tilt> tilts = FindTilts(evidence.segments(),
-                                              evidence.camera(),
-                                              space.center_angles(),
-                                              ranges.pitch_deg,
-                                              ranges.roll_deg,
-                                              kTiltSeparationDeg,
-                                              map.tilts);
-    // Between the places of a wide grid the model's edges are off by as much as the model errs.
-    const double spacing_m = SpacingOf(ranges, map);
-    const std::unique_ptr<Score> wide_score =
-        spacing_m > 1.0 ? MakeScore(options.score, evidence, bgr, camera, scene, spacing_m)
-                        : nullptr;
-    volume = ComputeVolume(wide_score ? *wide_score : *score,
-                           scene,
-                           space,
-                           evidence.camera(),
-                           tilts,
-                           surface_step_rad,
-                           map,
-                           threads);
-    result.evaluations = volume->evaluations;
-    result.map = MapOf(*volume, space, impl_->model);
-    modes = FindModes(*volume, space, map);
-  } else {
-    SampledSearch search = SampleSearch(
-        *score, scene, space, evidence.camera(), surface_step_rad, options.search, seed, threads);
-    result.evaluations = search.trace.trials.size();
-    modes = std::move(search.modes);
-  }
+  const PoseScorer scorer(
+      *score, scene, space, picture.camera(), options.score.evidence.surface_step_deg);
+  SearchedPoses found = SearchPoses(scorer, picture, options.search, seed, threads);
+  result.evaluations = found.evaluations;
+  if (found.volume) result.map = MapOf(*found.volume, space, impl_->model);
   lap("search");
-  if (modes.empty()) {
-    result.status = LocalizationStatus::kNoVisibleModel;
-    const std::string unusable = score->unusable();
-    result.reason =
-        unusable.empty() ? "no admissible pose of the search box sees the model" : unusable;
-    return result;
+  if (found.modes.empty()) {
+    return Abstained(
+        std::move(result), LocalizationStatus::kNoVisibleModel, NoVisibleModel(*score));
   }
 
-  // The modes, refined on the exact score: all a little, the better half to the end.
+  // Refine: the modes on the exact score, and the best of them by least squares.
   if (options.search.refine) {
-    const auto refine = [&](std::size_t first, std::size_t count, const RefineSteps& steps) {
-      std::vector<std::uint64_t> evaluations(count);
-      ParallelFor(count, threads, [&](std::size_t i) {
-        const RefinedPose refined = RefinePose(
-            *score, scene, space, evidence.camera(), surface_step_rad, modes[first + i], steps);
-        modes[first + i] = refined.pose;
-        evaluations[i] = refined.evaluations;
-      });
-      for (const std::uint64_t n : evaluations) result.evaluations += n;
-    };
-    const auto best_first = [&] {
-      std::stable_sort(modes.begin(), modes.end(), [](const ScoredPose& x, const ScoredPose& y) {
-        return x.log_ratio > y.log_ratio;
-      });
-    };
-    const double first_m = volume ? 0.5 * SpacingOf(ranges, options.search.map) : 0.5;
-    refine(0, modes.size(), {first_m, 0.5, 0.3});
-    best_first();
-    const std::size_t better = (modes.size() + 2) / 3;
-    RefineWhileHopeful(modes, better, [&](std::size_t first, std::size_t count) {
-      refine(first, count, {0.25, 0.25, 0.06});
-    });
-    best_first();
+    result.evaluations += RefineModes(scorer, threads, found);
     if (options.search.refinement == "fit") {
-      modes.front() = SettlePose(*score,
-                                 {evidence.segments(), evidence.field(), evidence.camera()},
-                                 scene,
-                                 space,
-                                 surface_step_rad,
-                                 options.score.evidence.lines,
-                                 options.search.fit,
-                                 modes.front());
+      found.modes.front() = SettlePose(scorer,
+                                       {picture.segments(), picture.field(), picture.camera()},
+                                       options.score.evidence.cues.Get<LineLikelihoodOptions>(),
+                                       options.search.fit,
+                                       found.modes.front());
     }
     lap("refinement");
   }
 
-  // What to believe.
-  const Posterior posterior = volume ? PosteriorOf(*volume, modes, space, options.confidence)
-                                     : PosteriorOf(modes, options.confidence);
-  result.confidence = posterior.confidence;
-  result.spread = posterior.spread;
-  for (const ScoredPose& mode : modes) {
-    const std::optional<Pose> local = space.PoseAt(mode.offset);
-    result.modes.push_back(
-        {{local->cam_from_world, local->center_in_world + impl_->model.origin_in_world},
-         Score::EnergyOf(mode.log_ratio)});
-  }
-  result.energy = result.modes.front().energy;
-  if (result.confidence < options.confidence.abstain_below) {
-    result.status = LocalizationStatus::kAmbiguous;
-    result.reason = "other poses explain the picture about as well (confidence " +
-                    std::to_string(result.confidence).substr(0, 4) + ")";
-  } else {
-    result.status = LocalizationStatus::kOk;
-    result.pose = result.modes.front().pose;
-  }
+  // Believe: as much as the other poses of the box allow.
+  Believe(found, space, impl_->model, options.confidence, result);
   lap("confidence");
   return result;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "localize/localizer_options.h"
 
-#include <algorithm>
+#include <string>
 
 #include "base/error.h"
 
@@ -13,56 +13,6 @@ void RequirePositive(const char* field, double value) {
 }
 
 }  // namespace
-
-const std::vector<std::string>& ScoreNames() {
-  static const std::vector<std::string> names = {"evidence",
-                                                 "line_energy",
-                                                 "line_energy_zbuffer",
-                                                 "skyline_l1",
-                                                 "gradient",
-                                                 "oriented_chamfer",
-                                                 "unexplained"};
-  return names;
-}
-
-void ScoreOptions::Visit(OptionVisitor& v) {
-  v.Field("name", name);
-  v.Field("weights", weights);
-  v.Group("evidence", [this](OptionVisitor& g) { evidence.Visit(g); });
-  v.Group("line_energy", [this](OptionVisitor& g) { line_energy.Visit(g); });
-  v.Group("oriented_chamfer", [this](OptionVisitor& g) { oriented_chamfer.Visit(g); });
-  v.Group("gradient", [this](OptionVisitor& g) { gradient.Visit(g); });
-  v.Group("unexplained", [this](OptionVisitor& g) { unexplained.Visit(g); });
-  v.Group("zbuffer_hough", [this](OptionVisitor& g) { zbuffer_hough.Visit(g); });
-  v.Group("skyline", [this](OptionVisitor& g) { skyline.Visit(g); });
-  v.Group("skyline_l1", [this](OptionVisitor& g) { skyline_l1.Visit(g); });
-}
-
-void ScoreOptions::Validate() const {
-  const std::vector<std::string>& names = ScoreNames();
-  if (std::find(names.begin(), names.end(), name) == names.end()) {
-    std::string known;
-    for (const std::string& n : names) known += (known.empty() ? "" : ", ") + n;
-    throw InputError("", "score.name", "\"" + name + "\"", "one of " + known);
-  }
-  if (weights.size() != kCues) {
-    throw InputError("",
-                     "score.weights",
-                     std::to_string(weights.size()) + " numbers",
-                     std::to_string(kCues) + ", one per cue");
-  }
-  for (const double weight : weights) {
-    if (!(weight >= 0.0)) throw InputError("", "score.weights", std::to_string(weight), ">= 0");
-  }
-  evidence.Validate();
-  line_energy.Validate();
-  oriented_chamfer.Validate();
-  gradient.Validate();
-  unexplained.Validate();
-  zbuffer_hough.Validate();
-  skyline.Validate();
-  skyline_l1.Validate();
-}
 
 void MapOptions::Visit(OptionVisitor& v) {
   v.Field("spacing_m", spacing_m);

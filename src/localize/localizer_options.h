@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "base/options.h"
 #include "lines/line_detector.h"
@@ -10,41 +9,9 @@
 #include "localize/pose_space.h"
 #include "optim/sampler_options.h"
 #include "projection/scene.h"
-#include "projection/zbuffer_hough.h"
-#include "score/gradient_score.h"
-#include "score/line_energy.h"
-#include "score/oriented_chamfer_score.h"
-#include "score/picture_evidence.h"
-#include "score/skyline_l1.h"
-#include "score/unexplained_score.h"
-#include "skyline/skyline_extractor.h"
+#include "score/score_options.h"
 
 namespace ridgeline {
-
-// Names that ScoreOptions::name accepts, what MakeScore() knows.
-const std::vector<std::string>& ScoreNames();
-
-struct ScoreOptions {
-  // "evidence": ours. "line_energy": Loeper et al. on visible edges; "line_energy_zbuffer": the same
-  // on edges from a z-buffer, as in the paper. "skyline_l1": Ayadi et al. Contenders of ours, each a
-  // single cue: "oriented_chamfer", "gradient", "unexplained".
-  std::string name = "evidence";
-  // Weights of the cues, in the order of kCueNames: the maximum likelihood of the dev queries
-  // (docs/scores.md has the command).
-  std::vector<double> weights = {
-      0.097, 0.077, 0.039, 0.147, 0.279, 4.44, 1.08, 29.8, 0.0218};
-  EvidenceOptions evidence;
-  LineEnergyOptions line_energy;
-  OrientedChamferOptions oriented_chamfer;
-  GradientScoreOptions gradient;
-  UnexplainedScoreOptions unexplained;
-  ZbufferHoughOptions zbuffer_hough;
-  SkylineOptions skyline;
-  SkylineL1Options skyline_l1;
-
-  void Visit(OptionVisitor& v);
-  void Validate() const;
-};
 
 // Dense map over the search box, then refinement of its modes.
 struct MapOptions {

@@ -59,14 +59,11 @@ PoseSpace::Offset PoseVolume::OffsetOf(std::size_t index, const ViewAngles& cent
           tilts[tilt].roll_deg - center.roll_deg};
 }
 
-PoseVolume ComputeVolume(const Score& score,
-                         const Scene& scene,
-                         const PoseSpace& space,
-                         const PinholeCamera& camera,
+PoseVolume ComputeVolume(const PoseScorer& scorer,
                          std::span<const Tilt> tilts,
-                         double surface_step_rad,
                          const MapOptions& options,
                          int threads) {
+  const PoseSpace& space = scorer.space();
   const PoseSpaceOptions& ranges = space.ranges();
   PoseVolume volume;
   const double spacing_m = SpacingOf(ranges, options);
@@ -87,14 +84,12 @@ PoseVolume ComputeVolume(const Score& score,
     half_ranges.roll_deg =
         std::max(half_ranges.roll_deg, std::abs(tilt.roll_deg - space.center_angles().roll_deg));
   }
-  const PanoramaRange range = RangeOf(camera, space.center_angles(), half_ranges, surface_step_rad);
-  std::vector<Eigen::Quaterniond> rotations;
-  std::vector<double> log_priors;
+  const PanoramaRange range = scorer.RangeAround(space.center_angles(), half_ranges);
+  std::vector<PoseSpace::Offset> offsets;
   for (std::size_t i = 0; i < volume.orientations(); ++i) {
-    const PoseSpace::Offset offset = volume.OffsetOf(i, space.center_angles());
-    rotations.push_back(CamFromWorld(space.AnglesAt(offset)));
-    log_priors.push_back(space.LogPrior(offset));
+    offsets.push_back(volume.OffsetOf(i, space.center_angles()));
   }
+  const Orientations orientations = scorer.OrientationsOf(offsets);
   std::vector<std::uint8_t> admissible(positions, 0);
   ParallelFor(positions, threads, [&](std::size_t p) {
     const std::size_t first = p * volume.orientations();
@@ -102,12 +97,13 @@ PoseVolume ComputeVolume(const Score& score,
     const auto position = space.PositionAt(offset.east_m, offset.north_m, offset.height_m);
     if (!position) return;
     admissible[p] = 1;
-    PictureEvidence::Workspace workspace;
-    const PositionView view = ViewFrom(scene, *position, range, score.parts());
-    for (std::size_t i = 0; i < rotations.size(); ++i) {
-      volume.log_ratios[first + i] = static_cast<float>(
-          score.LogRatio(view, {rotations[i], *position}, workspace) + log_priors[i]);
-    }
+    PoseScorer::Look look(scorer);
+    look.From(*position, range);
+    const std::span<const double> log_ratios = look.LogRatios(orientations);
+    std::transform(log_ratios.begin(),
+                   log_ratios.end(),
+                   volume.log_ratios.begin() + static_cast<std::ptrdiff_t>(first),
+                   [](double log_ratio) { return static_cast<float>(log_ratio); });
   });
   volume.admissible_positions =
       std::accumulate(admissible.begin(), admissible.end(), std::uint64_t{0});

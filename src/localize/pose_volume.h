@@ -8,16 +8,10 @@
 #include "localize/gravity.h"
 #include "localize/localization.h"
 #include "localize/localizer_options.h"
+#include "localize/pose_scorer.h"
 #include "localize/pose_space.h"
-#include "score/score.h"
 
 namespace ridgeline {
-
-// A pose tried: offset from the prior and log likelihood ratio.
-struct ScoredPose {
-  PoseSpace::Offset offset;
-  double log_ratio = 0.0;
-};
 
 // Log likelihood ratios on a dense grid of the search box.
 struct PoseVolume {
@@ -42,12 +36,8 @@ struct PoseVolume {
 double SpacingOf(const PoseSpaceOptions& ranges, const MapOptions& options);
 
 // Visibility is computed once per position, in parallel over positions.
-PoseVolume ComputeVolume(const Score& score,
-                         const Scene& scene,
-                         const PoseSpace& space,
-                         const PinholeCamera& camera,
+PoseVolume ComputeVolume(const PoseScorer& scorer,
                          std::span<const Tilt> tilts,
-                         double surface_step_rad,
                          const MapOptions& options,
                          int threads);
 

@@ -21,19 +21,13 @@ constexpr double kReach = 0.01;
 
 class Climber {
  public:
-  Climber(const Score& score,
-          const Scene& scene,
-          const PoseSpace& space,
-          const PinholeCamera& camera,
-          double surface_step_rad)
-      : score_(score),
-        scene_(scene),
-        space_(space),
-        camera_(camera),
-        surface_step_rad_(surface_step_rad),
-        place_ranges_{space.ranges().east_m, space.ranges().north_m, space.ranges().height_m},
+  explicit Climber(const PoseScorer& scorer)
+      : scorer_(scorer),
+        space_(scorer.space()),
+        place_ranges_{space_.ranges().east_m, space_.ranges().north_m, space_.ranges().height_m},
         angle_ranges_{
-            space.ranges().heading_deg, space.ranges().pitch_deg, space.ranges().roll_deg} {}
+            space_.ranges().heading_deg, space_.ranges().pitch_deg, space_.ranges().roll_deg},
+        look_(scorer) {}
 
   RefinedPose Climb(const ScoredPose& start, const RefineSteps& steps) {
     ScoredPose best = start;
@@ -72,9 +66,7 @@ class Climber {
     LookFrom(*position, o);
     const auto evaluate = [&](const PoseSpace::Offset& offset) {
       ++evaluations_;
-      return score_.LogRatio(
-                 view_, {CamFromWorld(space_.AnglesAt(offset)), *position}, workspace_) +
-             space_.LogPrior(offset);
+      return look_.LogRatio(*position, offset);
     };
     pose.log_ratio = evaluate(pose.offset);
     for (double s = step; s >= 0.25 * step; s *= 0.5) {
@@ -99,24 +91,19 @@ class Climber {
     return true;
   }
 
-  // Brings view_ up to date for a place and the angles around those of `offset`.
+  // Brings look_ up to date for a place and the angles around those of `offset`.
   void LookFrom(const Eigen::Vector3d& position, const PoseSpace::Offset& offset) {
     const bool is_same = (position - view_position_).norm() <= view_reach_m_ &&
                          std::all_of(kAngles.begin(), kAngles.end(), [&](auto angle) {
                            return std::abs(offset.*angle - view_angles_.*angle) <= 0.5 * kMarginDeg;
                          });
     if (is_same) return;
-    view_ = ViewFrom(scene_,
-                     position,
-                     RangeOf(camera_,
-                             space_.AnglesAt(offset),
-                             {kMarginDeg, kMarginDeg, kMarginDeg},
-                             surface_step_rad_),
-                     score_.parts());
+    look_.From(position,
+               scorer_.RangeAround(space_.AnglesAt(offset), {kMarginDeg, kMarginDeg, kMarginDeg}));
     view_position_ = position;
     view_angles_ = offset;
     double nearest = std::numeric_limits<double>::infinity();
-    for (const VisiblePiece& piece : view_.visible.pieces) {
+    for (const VisiblePiece& piece : look_.view().visible.pieces) {
       const Eigen::Vector3d a = piece.a.cast<double>() - position;
       const Eigen::Vector3d ab = (piece.b - piece.a).cast<double>();
       const double t = std::clamp(-a.dot(ab) / ab.squaredNorm(), 0.0, 1.0);
@@ -125,15 +112,11 @@ class Climber {
     view_reach_m_ = std::isfinite(nearest) ? kReach * nearest : 0.0;
   }
 
-  const Score& score_;
-  const Scene& scene_;
+  const PoseScorer& scorer_;
   const PoseSpace& space_;
-  const PinholeCamera& camera_;
-  double surface_step_rad_;
   std::array<double, 3> place_ranges_;
   std::array<double, 3> angle_ranges_;
-  PictureEvidence::Workspace workspace_;
-  PositionView view_;
+  PoseScorer::Look look_;
   Eigen::Vector3d view_position_ =
       Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
   double view_reach_m_ = 0.0;
@@ -143,14 +126,10 @@ class Climber {
 
 }  // namespace
 
-RefinedPose RefinePose(const Score& score,
-                       const Scene& scene,
-                       const PoseSpace& space,
-                       const PinholeCamera& camera,
-                       double surface_step_rad,
+RefinedPose RefinePose(const PoseScorer& scorer,
                        const ScoredPose& start,
                        const RefineSteps& steps) {
-  return Climber(score, scene, space, camera, surface_step_rad).Climb(start, steps);
+  return Climber(scorer).Climb(start, steps);
 }
 
 }  // namespace ridgeline

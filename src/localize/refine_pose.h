@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "localize/pose_volume.h"
+#include "localize/pose_scorer.h"
 
 namespace ridgeline {
 
@@ -18,15 +18,9 @@ struct RefinedPose {
   std::uint64_t evaluations = 0;
 };
 
-// Climbs from a pose to the local maximum of the log likelihood ratio: a compass search over the free
-// parameters of the position with exact visibility at every place, the free angles maximised at each
-// (they cost no visibility). Steps are halved until the last. Stays within the box.
-RefinedPose RefinePose(const Score& score,
-                       const Scene& scene,
-                       const PoseSpace& space,
-                       const PinholeCamera& camera,
-                       double surface_step_rad,
-                       const ScoredPose& start,
-                       const RefineSteps& steps);
+// Climbs from a pose to the local maximum of the log likelihood ratio: a compass search over the
+// free parameters of the position with exact visibility at every place, the free angles maximised
+// at each (they cost no visibility). Steps are halved until the last. Stays within the box.
+RefinedPose RefinePose(const PoseScorer& scorer, const ScoredPose& start, const RefineSteps& steps);
 
 }  // namespace ridgeline

@@ -30,30 +30,19 @@ SearchBox SearchBoxOf(const PoseSpace& space) {
   return box;
 }
 
-SampledSearch SampleSearch(const Score& score,
-                           const Scene& scene,
-                           const PoseSpace& space,
-                           const PinholeCamera& camera,
-                           double surface_step_rad,
+SampledSearch SampleSearch(const PoseScorer& scorer,
                            const SearchOptions& options,
                            std::uint64_t seed,
                            int threads) {
+  const PoseSpace& space = scorer.space();
   SearchProblem problem;
   problem.box = SearchBoxOf(space);
   problem.feasible = [&space](std::span<const double> values) {
     return space.PoseAt(OffsetOf(values)).has_value();
   };
   const auto energy = [&](std::span<const double> values) {
-    const PoseSpace::Offset offset = OffsetOf(values);
-    const std::optional<Pose> pose = space.PoseAt(offset);
-    if (!pose) return std::numeric_limits<double>::infinity();
-    PictureEvidence::Workspace workspace;
-    const PositionView view =
-        ViewFrom(scene,
-                 pose->center_in_world,
-                 RangeOf(camera, space.AnglesAt(offset), {}, surface_step_rad),
-                 score.parts());
-    return Score::EnergyOf(score.LogRatio(view, *pose, workspace) + space.LogPrior(offset));
+    const std::optional<double> log_ratio = scorer.LogRatioAt(OffsetOf(values));
+    return log_ratio ? Score::EnergyOf(*log_ratio) : std::numeric_limits<double>::infinity();
   };
   const std::unique_ptr<Sampler> sampler = MakeSampler(options.sampler, problem, seed);
   MinimizeOptions minimize;
@@ -64,8 +53,12 @@ SampledSearch SampleSearch(const Score& score,
 
   const MapOptions& map = options.map;
   DistinctModesOptions distinct;
-  distinct.separation = {map.mode_separation_m,   map.mode_separation_m,   map.mode_separation_m,
-                         map.mode_separation_deg, map.mode_separation_deg, map.mode_separation_deg};
+  distinct.separation = {map.mode_separation_m,
+                         map.mode_separation_m,
+                         map.mode_separation_m,
+                         map.mode_separation_deg,
+                         map.mode_separation_deg,
+                         map.mode_separation_deg};
   distinct.max_modes = map.modes;
   for (const Mode& mode : DistinctModes(search.trace, problem.box, distinct)) {
     search.modes.push_back({OffsetOf(mode.values), Score::LogRatioOf(mode.energy)});

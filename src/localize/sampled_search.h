@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "localize/localizer_options.h"
-#include "localize/pose_volume.h"
+#include "localize/pose_scorer.h"
 #include "optim/trace.h"
 
 namespace ridgeline {
@@ -15,16 +15,12 @@ struct SampledSearch {
   Trace trace;                    // offsets from the prior: east_m, north_m, ... (SearchBoxOf)
 };
 
-// The space's offsets as a box: east_m, north_m, height_m, heading_deg, pitch_deg, roll_deg; heading
-// is periodic if it is the whole circle.
+// The space's offsets as a box: east_m, north_m, height_m, heading_deg, pitch_deg, roll_deg;
+// heading is periodic if it is the whole circle.
 SearchBox SearchBoxOf(const PoseSpace& space);
 
 // Minimises the energy with the sampler of the options over the admissible poses of the space.
-SampledSearch SampleSearch(const Score& score,
-                           const Scene& scene,
-                           const PoseSpace& space,
-                           const PinholeCamera& camera,
-                           double surface_step_rad,
+SampledSearch SampleSearch(const PoseScorer& scorer,
                            const SearchOptions& options,
                            std::uint64_t seed,
                            int threads);

@@ -5,37 +5,30 @@
 
 namespace ridgeline {
 
-ScoredPose SettlePose(const Score& score,
+ScoredPose SettlePose(const PoseScorer& scorer,
                       const PictureLines& lines,
-                      const Scene& scene,
-                      const PoseSpace& space,
-                      double surface_step_rad,
                       const LineLikelihoodOptions& likelihood,
                       const PoseFitOptions& options,
                       const ScoredPose& start) {
   PoseFitOptions near = options;
   near.first_tolerance = 1.0;  // the score has brought it home
-  const PoseFit fit = FitPose(lines, scene, space, likelihood, near, start.offset);
+  const PoseFit fit =
+      FitPose(lines, scorer.scene(), scorer.space(), likelihood, near, start.offset);
   if (fit.status == PoseFitStatus::kNoMatches || fit.status == PoseFitStatus::kNotAdmissible) {
     return start;
   }
   const PoseSpace::Offset& from = start.offset;
   const PoseSpace::Offset& to = fit.offset;
   const double move_m =
-      Eigen::Vector3d(to.east_m - from.east_m, to.north_m - from.north_m, to.height_m - from.height_m)
+      Eigen::Vector3d(
+          to.east_m - from.east_m, to.north_m - from.north_m, to.height_m - from.height_m)
           .norm();
   const double turn_deg = Eigen::Vector3d(HeadingDifferenceDeg(to.heading_deg, from.heading_deg),
                                           to.pitch_deg - from.pitch_deg,
                                           to.roll_deg - from.roll_deg)
                               .norm();
   if (move_m > options.max_move_m || turn_deg > options.max_turn_deg) return start;
-  const Pose pose = *space.PoseAt(to);
-  const PositionView view = ViewFrom(scene,
-                                     pose.center_in_world,
-                                     RangeOf(lines.camera, space.AnglesAt(to), {}, surface_step_rad),
-                                     score.parts());
-  PictureEvidence::Workspace workspace;
-  const double log_ratio = score.LogRatio(view, pose, workspace) + space.LogPrior(to);
+  const double log_ratio = scorer.LogRatioAt(to).value();  // a fit is admissible
   if (!(log_ratio >= start.log_ratio - options.max_loss)) return start;
   return {to, start.log_ratio};
 }

@@ -1,11 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "optim/gp_de.h"
 
+#include <memory>
+
 #include "base/random.h"
 #include "optim/batch_search.h"
 #include "optim/population.h"
+#include "optim/require.h"
+#include "optim/sampler_plugin.h"
 
 namespace ridgeline {
+
+void GpDeOptions::Visit(OptionVisitor& v) { v.Field("gp_trials", gp_trials); }
+
+void GpDeOptions::Validate() const {
+  Require(gp_trials >= 1, "gp_de.gp_trials", gp_trials, ">= 1");
+}
 
 GpDe::GpDe(const StrategyContext& context,
            const GpOptions& gp,
@@ -34,5 +44,22 @@ void GpDe::Observe(std::int64_t id, const UnitPoint& point, double energy, Trial
   }
   de_ != nullptr ? de_->Observe(id, point, energy, state) : gp_.Observe(id, point, energy, state);
 }
+
+extern const SamplerPlugin kGpDeSampler;
+constinit const SamplerPlugin kGpDeSampler = {
+    .name = "gp_de",
+    .declare =
+        [](OptionGroups& options) {
+          options.Add<GpOptions>("gp");
+          options.Add<DifferentialEvolutionOptions>("de");
+          options.Add<GpDeOptions>("gp_de");
+        },
+    .make = [](const StrategyContext& context,
+               const OptionGroups& options) -> std::unique_ptr<Strategy> {
+      return std::make_unique<GpDe>(context,
+                                    options.Get<GpOptions>(),
+                                    options.Get<DifferentialEvolutionOptions>(),
+                                    options.Get<GpDeOptions>());
+    }};
 
 }  // namespace ridgeline

@@ -5,11 +5,22 @@
 #include <limits>
 #include <memory>
 
+#include "base/options.h"
 #include "optim/gp_strategy.h"
-#include "optim/sampler_options.h"
+#include "optim/population.h"
 #include "optim/strategy.h"
 
 namespace ridgeline {
+
+// Gaussian process first, then differential evolution, with the options of both.
+struct GpDeOptions {
+  // Trials of the Gaussian process, >= 1.
+  int gp_trials = 200;
+
+  void Visit(OptionVisitor& v);
+  // Throws InputError naming the field, e.g. "sampler.tpe.candidates".
+  void Validate() const;
+};
 
 // A Gaussian process for the first trials, which finds more with few than any other sampler here
 // but costs time that grows with their number; then differential evolution, from fresh Sobol points

@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 
 #include "optim/batch_search.h"
 #include "optim/box_bfgs.h"
 #include "optim/expected_improvement.h"
 #include "optim/gp_likelihood.h"
+#include "optim/require.h"
+#include "optim/sampler_plugin.h"
 
 namespace ridgeline {
 namespace {
@@ -50,6 +53,22 @@ UnitPoint ToPoint(const VectorXd& x, const std::vector<bool>& periodic) {
 }
 
 }  // namespace
+
+void GpOptions::Visit(OptionVisitor& v) {
+  v.Field("startup_trials", startup_trials);
+  v.Field("max_points", max_points);
+  v.Field("refit_growth", refit_growth);
+  v.Field("candidates", candidates);
+  v.Field("climbs", climbs);
+}
+
+void GpOptions::Validate() const {
+  Require(startup_trials >= 2, "gp.startup_trials", startup_trials, ">= 2");
+  Require(max_points >= 20, "gp.max_points", max_points, ">= 20");
+  Require(refit_growth >= 0.0, "gp.refit_growth", refit_growth, ">= 0");
+  Require(candidates >= 1, "gp.candidates", candidates, ">= 1");
+  Require(climbs >= 0, "gp.climbs", climbs, ">= 0");
+}
 
 GpStrategy::GpStrategy(const StrategyContext& context, const GpOptions& options)
     : context_(context),
@@ -292,5 +311,14 @@ std::vector<UnitPoint> GpStrategy::RankCandidates() {
   for (const Index i : order) ranked.push_back(ToPoint(candidates.col(i), context_.periodic));
   return ranked;
 }
+
+extern const SamplerPlugin kGpSampler;
+constinit const SamplerPlugin kGpSampler = {
+    .name = "gp",
+    .declare = [](OptionGroups& options) { options.Add<GpOptions>("gp"); },
+    .make = [](const StrategyContext& context,
+               const OptionGroups& options) -> std::unique_ptr<Strategy> {
+      return std::make_unique<GpStrategy>(context, options.Get<GpOptions>());
+    }};
 
 }  // namespace ridgeline

@@ -3,12 +3,29 @@
 
 #include <Eigen/Core>
 
+#include "base/options.h"
 #include "optim/gaussian_process.h"
-#include "optim/sampler_options.h"
 #include "optim/sobol.h"
 #include "optim/strategy.h"
 
 namespace ridgeline {
+
+// Gaussian-process Bayesian optimization.
+struct GpOptions {
+  // Sobol points before the model is used, >= 2.
+  int startup_trials = 10;
+  // Trials the model holds at most, >= 20: the better half are the best ones, the rest the latest.
+  int max_points = 500;
+  // The hyper-parameters are estimated anew when the number of trials has grown by this fraction.
+  double refit_growth = 0.1;
+  // Points that the expected improvement is looked at before its best ones are climbed from.
+  int candidates = 192;
+  int climbs = 4;
+
+  void Visit(OptionVisitor& v);
+  // Throws InputError naming the field, e.g. "sampler.tpe.candidates".
+  void Validate() const;
+};
 
 // Bayesian optimization: a Gaussian process is fitted to the results, and the point of greatest
 // expected improvement is proposed (Jones et al. 1998), as its logarithm (Ament et al. 2023), found

@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 
 #include "base/error.h"
+#include "optim/batch_search.h"
 #include "optim/places.h"
+#include "optim/require.h"
+#include "optim/sampler_plugin.h"
 
 namespace ridgeline {
 namespace {
@@ -14,6 +18,7 @@ namespace {
 constexpr std::size_t kFullLattice = 4;
 constexpr std::size_t kCorners = 10;
 constexpr double kMostPoints = 1.1e7;
+constexpr int kMostCoarsePoints = 10000000;
 
 void RequireFewEnough(std::size_t per_axis, std::size_t d) {
   if (std::pow(static_cast<double>(per_axis), static_cast<double>(d)) <= kMostPoints) return;
@@ -85,6 +90,21 @@ void Append(const Batch& batch, std::vector<Vertex>& places) {
 
 }  // namespace
 
+void GridOptions::Visit(OptionVisitor& v) {
+  v.Field("coarse_points", coarse_points);
+  v.Field("keep", keep);
+  v.Field("finest", finest);
+}
+
+void GridOptions::Validate() const {
+  Require(coarse_points >= 1 && coarse_points <= kMostCoarsePoints,
+          "grid.coarse_points",
+          coarse_points,
+          "1 ... 10000000");
+  Require(keep >= 1, "grid.keep", keep, ">= 1");
+  Require(finest > 0.0 && finest < 1.0, "grid.finest", finest, "a value in (0, 1)");
+}
+
 SearchRoutine GridSearch(StrategyContext context, GridOptions options) {
   static const std::uint64_t kStage = HashText("optim.grid");
   Random random(context.seed, kStage);
@@ -123,5 +143,14 @@ SearchRoutine GridSearch(StrategyContext context, GridOptions options) {
     }
   }
 }
+
+extern const SamplerPlugin kGridSampler;
+constinit const SamplerPlugin kGridSampler = {
+    .name = "grid",
+    .declare = [](OptionGroups& options) { options.Add<GridOptions>("grid"); },
+    .make = [](const StrategyContext& context,
+               const OptionGroups& options) -> std::unique_ptr<Strategy> {
+      return std::make_unique<BatchStrategy>(GridSearch(context, options.Get<GridOptions>()));
+    }};
 
 }  // namespace ridgeline

@@ -1,10 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/options.h"
 #include "optim/batch_search.h"
-#include "optim/sampler_options.h"
 
 namespace ridgeline {
+
+// Dense coarse to fine.
+struct GridOptions {
+  // The coarse grid has at most this many points, and two per axis at least.
+  int coarse_points = 1000;
+  // Places refined after the coarse grid; half as many on each finer one.
+  int keep = 8;
+  // Ends when the spacing is below this fraction of the ranges.
+  double finest = 1e-4;
+
+  void Visit(OptionVisitor& v);
+  // Throws InputError naming the field, e.g. "sampler.tpe.candidates".
+  void Validate() const;
+};
 
 // Dense, coarse to fine. A regular grid over the whole cube, visited in a random order (so that a
 // short budget still sees all of it); then, around the best distinct places, neighbours at a third

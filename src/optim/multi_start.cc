@@ -7,7 +7,10 @@
 #include <memory>
 #include <numeric>
 
+#include "optim/batch_search.h"
 #include "optim/places.h"
+#include "optim/require.h"
+#include "optim/sampler_plugin.h"
 #include "optim/sobol.h"
 
 namespace ridgeline {
@@ -19,6 +22,18 @@ constexpr double kConverged = 0.2;
 constexpr double kSmallestSpacing = 0.01;
 
 }  // namespace
+
+void MultiStartOptions::Visit(OptionVisitor& v) {
+  v.Field("first_points", first_points);
+  v.Field("growth", growth);
+  v.Field("descents", descents);
+}
+
+void MultiStartOptions::Validate() const {
+  Require(first_points >= 4, "multi_start.first_points", first_points, ">= 4");
+  Require(growth >= 1.0 && growth <= 10.0, "multi_start.growth", growth, "a value in [1, 10]");
+  Require(descents >= 1, "multi_start.descents", descents, ">= 1");
+}
 
 SearchRoutine MultiStart(StrategyContext context, MultiStartOptions options) {
   SobolSequence sobol(context.dimension, context.seed);
@@ -62,5 +77,14 @@ SearchRoutine MultiStart(StrategyContext context, MultiStartOptions options) {
     }
   }
 }
+
+extern const SamplerPlugin kMultiStartSampler;
+constinit const SamplerPlugin kMultiStartSampler = {
+    .name = "multi_start",
+    .declare = [](OptionGroups& options) { options.Add<MultiStartOptions>("multi_start"); },
+    .make = [](const StrategyContext& context,
+               const OptionGroups& options) -> std::unique_ptr<Strategy> {
+      return std::make_unique<BatchStrategy>(MultiStart(context, options.Get<MultiStartOptions>()));
+    }};
 
 }  // namespace ridgeline

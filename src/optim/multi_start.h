@@ -1,10 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/options.h"
 #include "optim/batch_search.h"
-#include "optim/sampler_options.h"
 
 namespace ridgeline {
+
+// Sobol points and downhill simplices in turn.
+struct MultiStartOptions {
+  // Sobol points of the first round, >= 4; each further round has `growth` (>= 1) times as many.
+  int first_points = 32;
+  double growth = 1.5;
+  // Simplices started per round, >= 1.
+  int descents = 4;
+
+  void Visit(OptionVisitor& v);
+  // Throws InputError naming the field, e.g. "sampler.tpe.candidates".
+  void Validate() const;
+};
 
 // Local descents from the best of ever more evenly spread points; after multi-level single linkage
 // (Rinnooy Kan and Timmer 1987), with a downhill simplex. Each round adds Sobol points and starts

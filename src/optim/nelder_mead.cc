@@ -6,6 +6,10 @@
 #include <numeric>
 #include <sstream>
 
+#include "base/error.h"
+#include "optim/batch_search.h"
+#include "optim/require.h"
+#include "optim/sampler_plugin.h"
 #include "optim/simplex.h"
 
 namespace ridgeline {
@@ -26,7 +30,41 @@ std::vector<std::size_t> Coordinates(const std::string& group,
   return coordinates;
 }
 
+// Names in the groups of variables must be the box's; else a misspelt one would never be searched.
+void ValidateGroups(const NelderMeadOptions& options, std::vector<std::string> known) {
+  known.emplace_back("*");
+  for (const std::string& group : options.groups) {
+    std::istringstream stream(group);
+    for (std::string name; std::getline(stream, name, ',');) {
+      if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+      throw InputError("",
+                       "sampler.nelder_mead.groups",
+                       "\"" + name + "\"",
+                       "a parameter, e.g. \"" + NearestName(name, known) + "\"");
+    }
+  }
+}
+
 }  // namespace
+
+void NelderMeadOptions::Visit(OptionVisitor& v) {
+  v.Field("steps", steps);
+  v.Field("groups", groups);
+  v.Field("convergence", convergence);
+}
+
+void NelderMeadOptions::Validate() const {
+  Require(!steps.empty(), "nelder_mead.steps", "no steps", "at least one");
+  Require(!groups.empty(), "nelder_mead.groups", "no groups", "at least one, e.g. \"*\"");
+  for (const double step : steps) {
+    Require(
+        step > 0.0 && step < 1.0, "nelder_mead.steps", step, "fractions of the range in (0, 1)");
+  }
+  Require(convergence > 0.0 && convergence < 1.0,
+          "nelder_mead.convergence",
+          convergence,
+          "a value in (0, 1)");
+}
 
 SearchRoutine NelderMead(StrategyContext context, NelderMeadOptions options) {
   static const std::uint64_t kStage = HashText("optim.nelder_mead");
@@ -49,5 +87,16 @@ SearchRoutine NelderMead(StrategyContext context, NelderMeadOptions options) {
     start = anywhere();
   }
 }
+
+extern const SamplerPlugin kNelderMeadSampler;
+constinit const SamplerPlugin kNelderMeadSampler = {
+    .name = "nelder_mead",
+    .declare = [](OptionGroups& options) { options.Add<NelderMeadOptions>("nelder_mead"); },
+    .begins_at_start = true,
+    .make = [](const StrategyContext& context,
+               const OptionGroups& options) -> std::unique_ptr<Strategy> {
+      ValidateGroups(options.Get<NelderMeadOptions>(), context.parameters);
+      return std::make_unique<BatchStrategy>(NelderMead(context, options.Get<NelderMeadOptions>()));
+    }};
 
 }  // namespace ridgeline

@@ -6,15 +6,7 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "optim/gp_de.h"
-#include "optim/gp_strategy.h"
-#include "optim/grid_search.h"
-#include "optim/multi_start.h"
-#include "optim/nelder_mead.h"
-#include "optim/population.h"
-#include "optim/random_strategy.h"
-#include "optim/sobol.h"
-#include "optim/tpe.h"
+#include "optim/sampler_table.h"
 
 namespace ridgeline {
 namespace {
@@ -94,49 +86,6 @@ void ValidateResult(const Trial& trial) {
                    "energy and state as Trial::SetEnergy() sets them");
 }
 
-// Names in the groups of variables must be the box's; else a misspelt one would never be searched.
-void ValidateGroups(const NelderMeadOptions& options, const SearchBox& box) {
-  std::vector<std::string> known = {"*"};
-  for (const Parameter& parameter : box.parameters) known.push_back(parameter.name);
-  for (const std::string& group : options.groups) {
-    std::istringstream stream(group);
-    for (std::string name; std::getline(stream, name, ',');) {
-      if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-      throw InputError("",
-                       "sampler.nelder_mead.groups",
-                       "\"" + name + "\"",
-                       "a parameter, e.g. \"" + NearestName(name, known) + "\"");
-    }
-  }
-}
-
-std::unique_ptr<Strategy> MakeRoutine(SearchRoutine routine) {
-  return std::make_unique<BatchStrategy>(std::move(routine));
-}
-
-// Strategies that take the first guess from the context.
-std::unique_ptr<Strategy> MakeStarting(const SamplerOptions& options,
-                                       const StrategyContext& context) {
-  if (options.name == "cmaes") return MakeRoutine(CmaEs(context, options.cmaes));
-  if (options.name == "de") return MakeRoutine(DifferentialEvolution(context, options.de));
-  if (options.name == "nelder_mead") return MakeRoutine(NelderMead(context, options.nelder_mead));
-  return nullptr;
-}
-
-std::unique_ptr<Strategy> MakeOther(const SamplerOptions& options, const StrategyContext& context) {
-  if (options.name == "random") return std::make_unique<RandomStrategy>(context);
-  if (options.name == "sobol") return std::make_unique<SobolStrategy>(context);
-  if (options.name == "gp") return std::make_unique<GpStrategy>(context, options.gp);
-  if (options.name == "gp_de") {
-    return std::make_unique<GpDe>(context, options.gp, options.de, options.gp_de);
-  }
-  if (options.name == "multi_start") return MakeRoutine(MultiStart(context, options.multi_start));
-  if (options.name == "grid") return MakeRoutine(GridSearch(context, options.grid));
-  const bool joint = options.name == "tpe_multivariate";
-  return std::make_unique<TpeStrategy>(
-      context, options.tpe, joint ? TpeModel::kMultivariate : TpeModel::kUnivariate);
-}
-
 }  // namespace
 
 Sampler::Sampler(const SearchProblem& problem, std::unique_ptr<Strategy> strategy)
@@ -202,7 +151,6 @@ std::unique_ptr<Sampler> MakeSampler(const SamplerOptions& options,
                                      std::uint64_t seed) {
   options.Validate();
   problem.box.Validate();
-  ValidateGroups(options.nelder_mead, problem.box);
   if (!problem.start.empty() && !problem.box.Contains(problem.start)) {
     throw InputError("", "search.start", Text(problem.start), "a point of the box");
   }
@@ -214,15 +162,16 @@ std::unique_ptr<Sampler> MakeSampler(const SamplerOptions& options,
   context.dimension = cube.dimension();
   context.periodic = cube.periodic();
   context.names = cube.names();
+  for (const Parameter& parameter : problem.box.parameters) {
+    context.parameters.push_back(parameter.name);
+  }
   context.seed = seed;
   if (!problem.start.empty()) context.start = cube.ToUnit(problem.start);
 
-  std::unique_ptr<Strategy> strategy = MakeStarting(options, context);
-  if (strategy == nullptr) {
-    strategy = MakeOther(options, context);
-    if (!context.start.empty()) {
-      strategy = std::make_unique<StartFirst>(context.start, std::move(strategy));
-    }
+  const SamplerPlugin& plugin = FindSampler(options.name);
+  std::unique_ptr<Strategy> strategy = plugin.make(context, options.groups);
+  if (!context.start.empty() && !plugin.begins_at_start) {
+    strategy = std::make_unique<StartFirst>(context.start, std::move(strategy));
   }
   return std::make_unique<Sampler>(problem, std::move(strategy));
 }

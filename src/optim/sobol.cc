@@ -2,8 +2,10 @@
 #include "optim/sobol.h"
 
 #include <boost/random/sobol.hpp>
+#include <memory>
 
 #include "base/random.h"
+#include "optim/sampler_plugin.h"
 
 namespace ridgeline {
 namespace {
@@ -56,5 +58,12 @@ UnitPoint SobolSequence::Next() {
   engine_->at_origin = false;
   return point;
 }
+
+extern const SamplerPlugin kSobolSampler;
+constinit const SamplerPlugin kSobolSampler = {
+    .name = "sobol",
+    .declare = [](OptionGroups&) {},
+    .make = [](const StrategyContext& context, const OptionGroups& /*options*/)
+        -> std::unique_ptr<Strategy> { return std::make_unique<SobolStrategy>(context); }};
 
 }  // namespace ridgeline

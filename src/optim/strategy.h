@@ -15,9 +15,10 @@ using UnitPoint = std::vector<double>;
 
 // What a strategy knows of its problem.
 struct StrategyContext {
-  std::size_t dimension = 1;   // >= 1
-  std::vector<bool> periodic;  // per coordinate: 0 and 1 are the same place
-  std::vector<std::string> names;
+  std::size_t dimension = 1;            // >= 1
+  std::vector<bool> periodic;           // per coordinate: 0 and 1 are the same place
+  std::vector<std::string> names;       // of the coordinates
+  std::vector<std::string> parameters;  // of the box, the fixed ones too
   // First guess; empty if there is none.
   UnitPoint start;
   std::uint64_t seed = 0;

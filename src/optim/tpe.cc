@@ -4,7 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
+
+#include "optim/require.h"
+#include "optim/sampler_plugin.h"
 
 namespace ridgeline {
 namespace {
@@ -24,6 +28,31 @@ std::size_t BestRatio(const std::vector<double>& good, const std::vector<double>
 }
 
 }  // namespace
+
+void TpeOptions::Visit(OptionVisitor& v) {
+  v.Field("startup_trials", startup_trials);
+  v.Field("candidates", candidates);
+  v.Field("good_fraction", good_fraction);
+  v.Field("good_max", good_max);
+  v.Field("prior_weight", prior_weight);
+  v.Field("magic_clip", magic_clip);
+  v.Field("consider_endpoints", consider_endpoints);
+  v.Field("divide_by_deviation", divide_by_deviation);
+}
+
+void TpeOptions::Validate() const {
+  Require(startup_trials >= 1, "tpe.startup_trials", startup_trials, ">= 1");
+  Require(candidates >= 1, "tpe.candidates", candidates, ">= 1");
+  Require(good_fraction > 0.0 && good_fraction < 1.0,
+          "tpe.good_fraction",
+          good_fraction,
+          "a value in (0, 1)");
+  Require(good_max >= 1, "tpe.good_max", good_max, ">= 1");
+  Require(prior_weight > 0.0 && prior_weight < 1e6,
+          "tpe.prior_weight",
+          prior_weight,
+          "a value in (0, 1e6)");
+}
 
 std::vector<double> TpeWeights(std::size_t n) {
   std::vector<double> weights(n, 1.0);
@@ -215,5 +244,25 @@ UnitPoint TpeStrategy::DrawFromModel(Random& random) const {
   }
   return point;
 }
+
+extern const SamplerPlugin kTpeSampler;
+constinit const SamplerPlugin kTpeSampler = {
+    .name = "tpe",
+    .declare = [](OptionGroups& options) { options.Add<TpeOptions>("tpe"); },
+    .make = [](const StrategyContext& context,
+               const OptionGroups& options) -> std::unique_ptr<Strategy> {
+      return std::make_unique<TpeStrategy>(
+          context, options.Get<TpeOptions>(), TpeModel::kUnivariate);
+    }};
+
+extern const SamplerPlugin kMultivariateTpeSampler;
+constinit const SamplerPlugin kMultivariateTpeSampler = {
+    .name = "tpe_multivariate",
+    .declare = [](OptionGroups& options) { options.Add<TpeOptions>("tpe"); },
+    .make = [](const StrategyContext& context,
+               const OptionGroups& options) -> std::unique_ptr<Strategy> {
+      return std::make_unique<TpeStrategy>(
+          context, options.Get<TpeOptions>(), TpeModel::kMultivariate);
+    }};
 
 }  // namespace ridgeline

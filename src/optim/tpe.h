@@ -1,11 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/options.h"
 #include "optim/parzen.h"
-#include "optim/sampler_options.h"
 #include "optim/strategy.h"
 
 namespace ridgeline {
+
+// Tree-structured Parzen estimator; the defaults are those of Optuna 3.1.
+struct TpeOptions {
+  // Uniform random trials before the densities are used, >= 1.
+  int startup_trials = 10;
+  // Draws from the density of the good trials, of which the best ratio is proposed, >= 1.
+  int candidates = 24;
+  // The good trials are the best min(ceil(good_fraction * n), good_max), at least one.
+  double good_fraction = 0.1;
+  int good_max = 25;
+  // Weight of the prior kernel beside 1 per trial, > 0.
+  double prior_weight = 1.0;
+  // Lower limit of bandwidths: range / min(100, 1 + number of kernels).
+  bool magic_clip = true;
+  // Univariate rule: outermost kernels reach to the bounds.
+  bool consider_endpoints = false;
+  // Kernels are divided by their deviation, as in Optuna since 3.5. Undivided, as in 3.1, the
+  // search does better on smooth functions and as well on recorded landscapes, see
+  // docs/samplers.md.
+  bool divide_by_deviation = false;
+
+  void Visit(OptionVisitor& v);
+  // Throws InputError naming the field, e.g. "sampler.tpe.candidates".
+  void Validate() const;
+};
 
 enum class TpeModel {
   // One density per parameter, each searched by itself: "TPE" in Optuna and hyperopt, and what

@@ -2,30 +2,112 @@
 #include "score/evidence_score.h"
 
 #include <algorithm>
-#include <cassert>
 #include <limits>
+
+#include "score/score_plugin.h"
 
 namespace ridgeline {
 
-EvidenceScore::EvidenceScore(const PictureEvidence& evidence,
-                             const CityModel& model,
-                             const std::vector<double>& weights,
-                             double tolerance_factor)
-    : evidence_(evidence), model_(model), lines_(evidence.Lines(tolerance_factor)) {
-  assert(weights.size() == weights_.size());
-  std::copy(weights.begin(), weights.end(), weights_.begin());
+struct EvidenceScore::Memory final : Score::Workspace {
+  std::vector<std::unique_ptr<Cue::Workspace>> cues;  // by part
+  std::vector<float> values;
+};
+
+EvidenceScore::EvidenceScore(const CueContext& context,
+                             const std::map<std::string, double>& weights)
+    : picture_(context.picture) {
+  for (const CuePlugin* plugin : CueTable()) {
+    std::vector<double> of_plugin;
+    for (const CueName& cue : plugin->names) {
+      const auto it = weights.find(cue.name);
+      of_plugin.push_back(it == weights.end() ? 0.0 : it->second);
+    }
+    const auto counts = [](double weight) { return weight > 0.0; };
+    if (std::none_of(of_plugin.begin(), of_plugin.end(), counts)) continue;
+    parts_.push_back({plugin, plugin->make(context), weights_.size()});
+    weights_.insert(weights_.end(), of_plugin.begin(), of_plugin.end());
+  }
+}
+
+ViewParts EvidenceScore::parts() const {
+  // Whether anything of the model is in view is told by the edges.
+  ViewParts parts{.edges_and_skyline = true, .surfaces = false};
+  for (const Part& part : parts_) parts.surfaces = parts.surfaces || part.plugin->parts.surfaces;
+  return parts;
+}
+
+const char* EvidenceScore::unusable() const {
+  return picture_.is_blank() ? "the picture has no lines and one colour" : "";
+}
+
+std::unique_ptr<Score::Workspace> EvidenceScore::NewWorkspace() const {
+  auto memory = std::make_unique<Memory>();
+  for (const Part& part : parts_) memory->cues.push_back(part.cue->NewWorkspace());
+  memory->values.resize(weights_.size());
+  return memory;
+}
+
+std::unique_ptr<Score> EvidenceScore::Tolerant(double factor) const {
+  std::unique_ptr<EvidenceScore> tolerant(new EvidenceScore(picture_));
+  tolerant->parts_ = parts_;
+  tolerant->weights_ = weights_;
+  for (Part& part : tolerant->parts_) {
+    if (std::shared_ptr<const Cue> cue = part.cue->Tolerant(factor)) part.cue = std::move(cue);
+  }
+  return tolerant;
+}
+
+std::vector<std::string> EvidenceScore::cue_names() const {
+  std::vector<std::string> names;
+  for (const Part& part : parts_) {
+    for (const CueName& cue : part.plugin->names) names.emplace_back(cue.name);
+  }
+  return names;
+}
+
+std::span<const float> EvidenceScore::Cues(const PositionView& view,
+                                           const Pose& cam_from_local,
+                                           Score::Workspace& workspace) const {
+  auto& memory = static_cast<Memory&>(workspace);
+  ProjectPieces(view.visible, picture_.camera(), cam_from_local, memory.segments);
+  ReadPose(cam_from_local, view, memory);
+  return memory.values;
+}
+
+void EvidenceScore::ReadPose(const Pose& cam_from_local,
+                             const PositionView& view,
+                             Memory& memory) const {
+  const CuePose pose{
+      view, cam_from_local.cam_from_world.toRotationMatrix().cast<float>(), memory.segments};
+  const std::span<float> values(memory.values);
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const Part& part = parts_[i];
+    part.cue->LogRatios(
+        pose, memory.cues[i].get(), values.subspan(part.first, part.plugin->names.size()));
+  }
 }
 
 double EvidenceScore::LogRatio(const PositionView& view,
                                const Pose& cam_from_local,
-                               PictureEvidence::Workspace& workspace) const {
+                               Score::Workspace& workspace) const {
   constexpr double kNothing = -std::numeric_limits<double>::infinity();
-  if (evidence_.is_blank()) return kNothing;
-  const CueVector cues = evidence_.Cues(view, model_, cam_from_local, lines_, workspace);
-  if (workspace.segments.empty()) return kNothing;
+  if (picture_.is_blank()) return kNothing;
+  auto& memory = static_cast<Memory&>(workspace);
+  ProjectPieces(view.visible, picture_.camera(), cam_from_local, memory.segments);
+  if (memory.segments.empty()) return kNothing;
+  ReadPose(cam_from_local, view, memory);
   double sum = 0.0;
-  for (int k = 0; k < kCues; ++k) sum += weights_[k] * cues[k];
+  for (std::size_t k = 0; k < weights_.size(); ++k) sum += weights_[k] * memory.values[k];
   return sum;
 }
+
+extern const ScorePlugin kEvidenceScore;
+constinit const ScorePlugin kEvidenceScore = {
+    .name = "evidence",
+    .declare = [](OptionGroups&) {},  // those of the cues
+    .make = [](const ScoreContext& c) -> std::unique_ptr<Score> {
+      const CueContext context{c.picture, c.scene, c.options.evidence.cues};
+      return std::make_unique<EvidenceScore>(context, c.options.weights);
+    }};
 
 }  // namespace ridgeline

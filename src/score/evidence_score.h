@@ -1,42 +1,55 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
 
+#include "score/cue_table.h"
 #include "score/score.h"
 
 namespace ridgeline {
 
-// Weighted sum of the cues of PictureEvidence: the log-linear model P(pose) ~ exp(sum of w_k cue_k)
-// over the poses of a search, whose weights are those of the highest likelihood of the true poses of
-// the dev queries. The edges' cues are the score by edge types: each kind is weighted by how often it
+// Weighted sum of the cues of the table: the log-linear model P(pose) ~ exp(sum of w_k cue_k) over
+// the poses of a search, whose weights are those of the highest likelihood of the true poses of the
+// dev queries. The edges' cues are the score by edge types: each kind is weighted by how often it
 // is seen in pictures, as a likelihood against lines at random; there is no other of that name.
 class EvidenceScore final : public Score {
  public:
-  // `evidence` and `model` must outlive the score. One weight per cue, >= 0. `tolerance_factor` as
-  // in PictureEvidence::Lines.
-  EvidenceScore(const PictureEvidence& evidence,
-                const CityModel& model,
-                const std::vector<double>& weights,
-                double tolerance_factor);
+  // Picture and scene must outlive the score. Cues whose names are not in `weights`, or have the
+  // weight 0, are left out.
+  EvidenceScore(const CueContext& context, const std::map<std::string, double>& weights);
 
-  ViewParts parts() const override {
-    return {true,
-            weights_[kFacadeCue] > 0.0 || weights_[kRegionCue] > 0.0 ||
-                weights_[kFacadeColourCue] > 0.0};
-  }
-  const char* unusable() const override {
-    return evidence_.is_blank() ? "the picture has no lines and one colour" : "";
-  }
+  ViewParts parts() const override;
+  const char* unusable() const override;
+  std::unique_ptr<Score::Workspace> NewWorkspace() const override;
   double LogRatio(const PositionView& view,
                   const Pose& cam_from_local,
-                  PictureEvidence::Workspace& workspace) const override;
+                  Score::Workspace& workspace) const override;
+  std::unique_ptr<Score> Tolerant(double factor) const override;
+
+  // Names of the cues' values, and the values of a pose, without their weights; valid until the
+  // next use of the workspace.
+  std::vector<std::string> cue_names() const;
+  std::span<const float> Cues(const PositionView& view,
+                              const Pose& cam_from_local,
+                              Score::Workspace& workspace) const;
 
  private:
-  const PictureEvidence& evidence_;
-  const CityModel& model_;
-  LineLikelihood lines_;
-  std::array<double, kCues> weights_{};
+  struct Part {
+    const CuePlugin* plugin = nullptr;
+    std::shared_ptr<const Cue> cue;
+    std::size_t first = 0;  // of its values
+  };
+  struct Memory;
+
+  explicit EvidenceScore(const PictureEvidence& picture) : picture_(picture) {}
+  void ReadPose(const Pose& cam_from_local, const PositionView& view, Memory& memory) const;
+
+  const PictureEvidence& picture_;
+  std::vector<Part> parts_;
+  std::vector<double> weights_;  // of the values
 };
 
 }  // namespace ridgeline

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "lines/line_detector.h"
 #include "score/edge_samples.h"
+#include "score/score_plugin.h"
 
 namespace ridgeline {
 namespace {
@@ -36,7 +37,8 @@ GradientScore::GradientScore(const cv::Mat& picture,
                              const GradientScoreOptions& options)
     : camera_(camera), spacing_px_(static_cast<float>(options.spacing_width * camera.width)) {
   cv::Mat gray;
-  cv::resize(GrayOf(picture), gray, cv::Size(camera.width, camera.height), 0.0, 0.0, cv::INTER_AREA);
+  cv::resize(
+      GrayOf(picture), gray, cv::Size(camera.width, camera.height), 0.0, 0.0, cv::INTER_AREA);
   gray.convertTo(gray, CV_32F);
   cv::GaussianBlur(gray, gray, cv::Size(), options.sigma_width * camera.width);
   cv::Mat gx;
@@ -56,7 +58,8 @@ GradientScore::GradientScore(const cv::Mat& picture,
   std::array<std::uint64_t, kLevels + 1> smaller{};  // first counts, then sums
   for (int direction = 0; direction < kDirections; ++direction) {
     // Across the middle of the direction bin.
-    const float angle = (static_cast<float>(direction) + 0.5f) * std::numbers::pi_v<float> / kDirections;
+    const float angle =
+        (static_cast<float>(direction) + 0.5f) * std::numbers::pi_v<float> / kDirections;
     const float nx = -std::sin(angle);
     const float ny = std::cos(angle);
     const float* x = gx.ptr<float>();
@@ -93,9 +96,18 @@ double GradientScore::EnergyOfEdges(std::span<const ProjectedSegment> segments) 
 
 double GradientScore::LogRatio(const PositionView& view,
                                const Pose& cam_from_local,
-                               PictureEvidence::Workspace& workspace) const {
+                               Workspace& workspace) const {
   ProjectPieces(view.visible, camera_, cam_from_local, workspace.segments);
   return LogRatioOf(EnergyOfEdges(workspace.segments));
 }
+
+extern const ScorePlugin kGradientScore;
+constinit const ScorePlugin kGradientScore = {
+    .name = "gradient",
+    .declare = [](OptionGroups& options) { options.Add<GradientScoreOptions>("gradient"); },
+    .make = [](const ScoreContext& c) -> std::unique_ptr<Score> {
+      return std::make_unique<GradientScore>(
+          c.picture.full_bgr(), c.picture.camera(), c.options.groups.Get<GradientScoreOptions>());
+    }};
 
 }  // namespace ridgeline

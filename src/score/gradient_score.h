@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "base/options.h"
+#include "camera/intrinsics.h"
 #include "score/score.h"
 
 namespace ridgeline {
 
 struct GradientScoreOptions {
-  // Width of the smoothing before the gradient [share of the picture's width]: how far beside a line
-  // an edge still feels it.
+  // Width of the smoothing before the gradient [share of the picture's width]: how far beside a
+  // line an edge still feels it.
   double sigma_width = 0.003;
   // Spacing of samples along an edge [share of the picture's width].
   double spacing_width = 0.004;
@@ -26,11 +27,10 @@ struct GradientScoreOptions {
 };
 
 // Gradient of the picture across the projected edges: at each sample the share of all gradients of
-// the picture (pixels and directions) that are smaller than the one across the edge (weighted by the
-// fourth power of the cosine to it). The energy is 1
-// minus the mean of these ranks: 0 if every edge lies on the strongest gradients, about 1/2 by chance
-// in a picture full of texture. Ranks do not change with brightness and contrast. Needs no lines.
-// Loeper et al. name it in their outlook.
+// the picture (pixels and directions) that are smaller than the one across the edge (weighted by
+// the fourth power of the cosine to it). The energy is 1 minus the mean of these ranks: 0 if every
+// edge lies on the strongest gradients, about 1/2 by chance in a picture full of texture. Ranks do
+// not change with brightness and contrast. Needs no lines. Loeper et al. name it in their outlook.
 class GradientScore final : public Score {
  public:
   // @param picture  CV_8U, any channels; reduced to the size of `camera`.
@@ -44,7 +44,7 @@ class GradientScore final : public Score {
   }
   double LogRatio(const PositionView& view,
                   const Pose& cam_from_local,
-                  PictureEvidence::Workspace& workspace) const override;
+                  Workspace& workspace) const override;
   // Of projected edges; 1 without any, and for a picture without gradients.
   double EnergyOfEdges(std::span<const ProjectedSegment> segments) const;
 

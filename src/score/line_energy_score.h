@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "camera/intrinsics.h"
 #include "score/line_energy.h"
 #include "score/score.h"
 
@@ -18,11 +23,16 @@ class LineEnergyScore final : public Score {
   const char* unusable() const override {
     return energy_.has_lines() ? "" : "the picture has no lines";
   }
+  std::unique_ptr<Workspace> NewWorkspace() const override;
   double LogRatio(const PositionView& view,
                   const Pose& cam_from_local,
-                  PictureEvidence::Workspace& workspace) const override;
+                  Workspace& workspace) const override;
 
  private:
+  struct Memory final : Workspace {
+    std::vector<LineSegment> lines;  // of the model
+  };
+
   PinholeCamera camera_;
   LineEnergy energy_;
 };

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "score/edge_samples.h"
+#include "score/score_plugin.h"
 
 namespace ridgeline {
 namespace {
@@ -19,7 +20,8 @@ constexpr int kFar = 255;
 void OrientedChamferOptions::Validate() const {
   const auto require_positive = [](const char* name, double value) {
     if (value > 0.0) return;
-    throw InputError("", std::string("score.oriented_chamfer.") + name, std::to_string(value), "> 0");
+    throw InputError(
+        "", std::string("score.oriented_chamfer.") + name, std::to_string(value), "> 0");
   };
   require_positive("max_distance_width", max_distance_width);
   require_positive("per_degree_width", per_degree_width);
@@ -31,10 +33,8 @@ OrientedChamferScore::OrientedChamferScore(const OrientedDistanceField& field,
                                            const OrientedChamferOptions& options)
     : camera_(camera),
       spacing_px_(static_cast<float>(options.spacing_width * camera.width)),
-      limit_units_(static_cast<float>(
-          std::min<double>(kFar,
-                           options.max_distance_width * camera.width *
-                               OrientedDistanceField::kUnitsPerPx))) {
+      limit_units_(static_cast<float>(std::min<double>(
+          kFar, options.max_distance_width * camera.width * OrientedDistanceField::kUnitsPerPx))) {
   const std::size_t pixels = static_cast<std::size_t>(field.width()) * field.height();
   costs_.resize(kDirections * pixels);
   for (int direction = 0; direction < kDirections; ++direction) {
@@ -46,9 +46,10 @@ OrientedChamferScore::OrientedChamferScore(const OrientedDistanceField& field,
   has_lines_ = std::any_of(costs_.begin(), costs_.end(), [](std::uint8_t c) { return c == 0; });
   // A step to the next direction costs its angle; two turns each way reach all of them.
   constexpr double kStepDeg = 180.0 / kDirections;
-  const int step = std::max(1, static_cast<int>(std::lround(
-                                   kStepDeg * options.per_degree_width * camera.width *
-                                   OrientedDistanceField::kUnitsPerPx)));
+  const int step =
+      std::max(1,
+               static_cast<int>(std::lround(kStepDeg * options.per_degree_width * camera.width *
+                                            OrientedDistanceField::kUnitsPerPx)));
   const auto relax = [&](int to, int from) {
     std::uint8_t* target = &costs_[to * pixels];
     const std::uint8_t* source = &costs_[from * pixels];
@@ -65,8 +66,8 @@ double OrientedChamferScore::EnergyOfEdges(std::span<const ProjectedSegment> seg
   const std::size_t pixels = static_cast<std::size_t>(camera_.width) * camera_.height;
   const double mean = MeanAlongEdges(
       segments, spacing_px_, camera_.width, camera_.height, [&](int direction, int x, int y) {
-        const float cost = costs_[direction * pixels +
-                                  static_cast<std::size_t>(y) * camera_.width + x];
+        const float cost =
+            costs_[direction * pixels + static_cast<std::size_t>(y) * camera_.width + x];
         return static_cast<double>(std::min(cost, limit_units_));
       });
   return mean < 0.0 ? 1.0 : mean / limit_units_;
@@ -74,9 +75,19 @@ double OrientedChamferScore::EnergyOfEdges(std::span<const ProjectedSegment> seg
 
 double OrientedChamferScore::LogRatio(const PositionView& view,
                                       const Pose& cam_from_local,
-                                      PictureEvidence::Workspace& workspace) const {
+                                      Workspace& workspace) const {
   ProjectPieces(view.visible, camera_, cam_from_local, workspace.segments);
   return LogRatioOf(EnergyOfEdges(workspace.segments));
 }
+
+extern const ScorePlugin kOrientedChamferScore;
+constinit const ScorePlugin kOrientedChamferScore = {
+    .name = "oriented_chamfer",
+    .declare =
+        [](OptionGroups& options) { options.Add<OrientedChamferOptions>("oriented_chamfer"); },
+    .make = [](const ScoreContext& c) -> std::unique_ptr<Score> {
+      return std::make_unique<OrientedChamferScore>(
+          c.picture.field(), c.picture.camera(), c.options.groups.Get<OrientedChamferOptions>());
+    }};
 
 }  // namespace ridgeline

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "base/options.h"
+#include "camera/intrinsics.h"
+#include "score/oriented_distance_field.h"
 #include "score/score.h"
 
 namespace ridgeline {
@@ -26,10 +28,11 @@ struct OrientedChamferOptions {
   void Validate() const;
 };
 
-// Directional chamfer distance: a sample of a projected edge costs the least sum of its distance to a
-// line and of the angle between them, limited to the largest distance. The energy is the mean over all
-// samples, in units of the largest distance: 0 if all edges lie on lines of their direction.
-// Liu et al., "Fast directional chamfer matching", CVPR 2010, with lines' own directions.
+// Directional chamfer distance: a sample of a projected edge costs the least sum of its distance to
+// a line and of the angle between them, limited to the largest distance. The energy is the mean
+// over all samples, in units of the largest distance: 0 if all edges lie on lines of their
+// direction. Liu et al., "Fast directional chamfer matching", CVPR 2010, with lines' own
+// directions.
 class OrientedChamferScore final : public Score {
  public:
   // Keeps nothing of `field`; `camera` is that of the field's picture.
@@ -41,7 +44,7 @@ class OrientedChamferScore final : public Score {
   const char* unusable() const override { return has_lines_ ? "" : "the picture has no lines"; }
   double LogRatio(const PositionView& view,
                   const Pose& cam_from_local,
-                  PictureEvidence::Workspace& workspace) const override;
+                  Workspace& workspace) const override;
   // Of projected edges; 1 without any, and for a picture without lines.
   double EnergyOfEdges(std::span<const ProjectedSegment> segments) const;
 

@@ -12,6 +12,17 @@ constexpr double kScale = 10.0;
 
 }  // namespace
 
+void Score::LogRatios(const PositionView& view,
+                      std::span<const Pose> poses,
+                      Workspace& workspace,
+                      std::span<double> log_ratios) const {
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    log_ratios[i] = LogRatio(view, poses[i], workspace);
+  }
+}
+
+std::unique_ptr<Score> Score::Tolerant(double /*factor*/) const { return nullptr; }
+
 double Score::EnergyOf(double log_ratio) {
   return std::isnan(log_ratio) ? 1.0 : 1.0 / (1.0 + std::exp(log_ratio / kScale));
 }

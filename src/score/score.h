@@ -2,31 +2,51 @@
 #pragma once
 
 #include <memory>
-#include <string>
+#include <span>
 #include <vector>
 
-#include "score/picture_evidence.h"
+#include "camera/pose.h"
 #include "score/position_view.h"
 
 namespace ridgeline {
 
 // Compares a picture with what the model shows from a pose. Thread-safe; never sees the truth.
+// The scores there are: score_table.h.
 class Score {
  public:
+  // Memory that one thread uses again and again, so that a pose costs no allocation. A score that
+  // needs more than this derives its own.
+  struct Workspace {
+    virtual ~Workspace() = default;
+    std::vector<ProjectedSegment> segments;
+  };
+
   virtual ~Score() = default;
 
   // What LogRatio() reads of a view.
   virtual ViewParts parts() const = 0;
 
-  // Why this picture gives every pose the energy 1, in words ("the picture has no lines"); empty if it
-  // does not.
+  // Why this picture gives every pose the energy 1, in words ("the picture has no lines"); empty if
+  // it does not.
   virtual const char* unusable() const { return ""; }
 
+  virtual std::unique_ptr<Workspace> NewWorkspace() const { return std::make_unique<Workspace>(); }
+
   // Log likelihood ratio of the pose against chance, or what comes nearest to it; higher is better.
-  // Without anything of the model in view it is -infinity.
+  // Without anything of the model in view it is -infinity. `workspace` is one of NewWorkspace().
   virtual double LogRatio(const PositionView& view,
                           const Pose& cam_from_local,
-                          PictureEvidence::Workspace& workspace) const = 0;
+                          Workspace& workspace) const = 0;
+
+  // The same for many orientations at the place of one view: log_ratios[i] is that of poses[i].
+  virtual void LogRatios(const PositionView& view,
+                         std::span<const Pose> poses,
+                         Workspace& workspace,
+                         std::span<double> log_ratios) const;
+
+  // The same score with a tolerance of the model's errors that is wider by a factor > 1, for poses
+  // on a coarse grid. Refers to this one's picture. Null: the tolerance is the same on any grid.
+  virtual std::unique_ptr<Score> Tolerant(double factor) const;
 
   // [0, 1], 0 best: 1 / (1 + exp(log_ratio / 10)); 1 where nothing is in view.
   static double EnergyOf(double log_ratio);

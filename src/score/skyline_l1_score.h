@@ -17,7 +17,7 @@ class SkylineL1Score final : public Score {
   }
   double LogRatio(const PositionView& view,
                   const Pose& cam_from_local,
-                  PictureEvidence::Workspace& workspace) const override;
+                  Workspace& workspace) const override;
 
  private:
   SkylineL1 matcher_;

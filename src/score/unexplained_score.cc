@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "score/edge_samples.h"
+#include "score/score_plugin.h"
 
 namespace ridgeline {
 namespace {
@@ -66,8 +67,9 @@ UnexplainedScore::UnexplainedScore(std::span<const LineSegment> segments,
   std::vector<std::size_t> order(segments.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto strength = [&](std::size_t i) { return segments[i].Length() * segments[i].strength; };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t x, std::size_t y) { return strength(x) > strength(y); });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) {
+    return strength(x) > strength(y);
+  });
   order.resize(std::min<std::size_t>(order.size(), options.max_lines));
   for (const std::size_t i : order) {
     const Eigen::Vector2f d = segments[i].b - segments[i].a;
@@ -76,10 +78,9 @@ UnexplainedScore::UnexplainedScore(std::span<const LineSegment> segments,
       const Eigen::Vector2f p = segments[i].a + d * ((static_cast<float>(k) + 0.5f) / count);
       const int column = std::clamp(static_cast<int>(p.x() / cell_px_), 0, kGrid - 1);
       const int row = std::clamp(static_cast<int>(p.y() / cell_px_), 0, kGrid - 1);
-      samples_.push_back(
-          {static_cast<std::uint16_t>(row * kGrid + column),
-           WithNeighbours(OrientedDistanceField::DirectionOf(d.x(), d.y())),
-           strength(i) / static_cast<float>(count)});
+      samples_.push_back({static_cast<std::uint16_t>(row * kGrid + column),
+                          WithNeighbours(OrientedDistanceField::DirectionOf(d.x(), d.y())),
+                          strength(i) / static_cast<float>(count)});
     }
   }
 }
@@ -90,10 +91,10 @@ UnexplainedScore::Shares UnexplainedScore::SharesOf(std::span<const ProjectedSeg
   if (samples_.empty()) return shares;
   shares.edges = std::max(
       0.0,
-      MeanAlongEdges(segments, spacing_px_, camera_.width, camera_.height,
-                     [&](int direction, int x, int y) {
-                       return field_.Distance(direction, x, y) <= max_units_ ? 1.0 : 0.0;
-                     }));
+      MeanAlongEdges(
+          segments, spacing_px_, camera_.width, camera_.height, [&](int direction, int x, int y) {
+            return field_.Distance(direction, x, y) <= max_units_ ? 1.0 : 0.0;
+          }));
   CellMasks masks;
   for (const ProjectedSegment& segment : segments) {
     const Eigen::Vector2f d = segment.b - segment.a;
@@ -123,9 +124,20 @@ UnexplainedScore::Shares UnexplainedScore::SharesOf(std::span<const ProjectedSeg
 
 double UnexplainedScore::LogRatio(const PositionView& view,
                                   const Pose& cam_from_local,
-                                  PictureEvidence::Workspace& workspace) const {
+                                  Workspace& workspace) const {
   ProjectPieces(view.visible, camera_, cam_from_local, workspace.segments);
   return LogRatioOf(SharesOf(workspace.segments, view.kinds).Energy());
 }
+
+extern const ScorePlugin kUnexplainedScore;
+constinit const ScorePlugin kUnexplainedScore = {
+    .name = "unexplained",
+    .declare = [](OptionGroups& options) { options.Add<UnexplainedScoreOptions>("unexplained"); },
+    .make = [](const ScoreContext& c) -> std::unique_ptr<Score> {
+      return std::make_unique<UnexplainedScore>(c.picture.segments(),
+                                                c.picture.field(),
+                                                c.picture.camera(),
+                                                c.options.groups.Get<UnexplainedScoreOptions>());
+    }};
 
 }  // namespace ridgeline

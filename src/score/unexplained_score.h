@@ -5,12 +5,17 @@
 #include <vector>
 
 #include "base/options.h"
+#include "camera/intrinsics.h"
+#include "lines/line_segment.h"
+#include "score/edge_kind.h"
+#include "score/oriented_distance_field.h"
 #include "score/score.h"
 
 namespace ridgeline {
 
 struct UnexplainedScoreOptions {
-  // An edge is explained by a line, and a line by an edge, this near [share of the picture's width].
+  // An edge is explained by a line, and a line by an edge, this near [share of the picture's
+  // width].
   double max_distance_width = 0.01;
   // Lines looked at: the strongest by length times gradient.
   int max_lines = 200;
@@ -29,12 +34,12 @@ struct UnexplainedScoreOptions {
   void Validate() const;
 };
 
-// What edges and lines leave of each other. E: share of the length of the projected edges with a line
-// of their direction beside them. L: share of the strong lines near modelled outlines (sky or another
-// building behind the edge), by length and gradient, that have an edge of their direction beside them
-// (within a direction bin of 10 degrees and a cell of 1/64 of the picture's longer side). The energy is
-// 1 - 2 E L / (E + L): a pose that shows few edges leaves lines unexplained, one that shows many
-// leaves edges.
+// What edges and lines leave of each other. E: share of the length of the projected edges with a
+// line of their direction beside them. L: share of the strong lines near modelled outlines (sky or
+// another building behind the edge), by length and gradient, that have an edge of their direction
+// beside them (within a direction bin of 10 degrees and a cell of 1/64 of the picture's longer
+// side). The energy is 1 - 2 E L / (E + L): a pose that shows few edges leaves lines unexplained,
+// one that shows many leaves edges.
 class UnexplainedScore final : public Score {
  public:
   // `segments` in the pixels of `camera`, `field` theirs; both must outlive the score.
@@ -44,10 +49,12 @@ class UnexplainedScore final : public Score {
                    const UnexplainedScoreOptions& options);
 
   ViewParts parts() const override { return {true, false}; }
-  const char* unusable() const override { return samples_.empty() ? "the picture has no lines" : ""; }
+  const char* unusable() const override {
+    return samples_.empty() ? "the picture has no lines" : "";
+  }
   double LogRatio(const PositionView& view,
                   const Pose& cam_from_local,
-                  PictureEvidence::Workspace& workspace) const override;
+                  Workspace& workspace) const override;
 
   struct Shares {
     double edges = 0.0;  // explained by lines

@@ -51,21 +51,15 @@ Tried Improved(Tried best, const ViewAngles& half_ranges, const Evaluate& evalua
 
 }  // namespace
 
-ExploredMap Explore(const Score& score,
-                    const Scene& scene,
-                    const PoseSpace& space,
-                    const PinholeCamera& camera,
-                    double surface_step_rad,
-                    const ExploreOptions& options,
-                    int threads) {
+ExploredMap Explore(const PoseScorer& scorer, const ExploreOptions& options, int threads) {
+  const PoseSpace& space = scorer.space();
   const PoseSpaceOptions& ranges = space.ranges();
   const int east_steps = StepsEachWay(ranges.east_m, options.spacing_m);
   const int north_steps = StepsEachWay(ranges.north_m, options.spacing_m);
   const ViewAngles half_ranges{ranges.heading_deg,
                                ranges.pitch_deg > 0.0 ? ranges.pitch_deg : options.tilt_deg,
                                ranges.roll_deg > 0.0 ? ranges.roll_deg : options.tilt_deg};
-  const PanoramaRange panorama =
-      RangeOf(camera, space.center_angles(), half_ranges, surface_step_rad);
+  const PanoramaRange panorama = scorer.RangeAround(space.center_angles(), half_ranges);
   const int heading_steps =
       static_cast<int>(std::ceil(ranges.heading_deg / options.heading_step_deg - 1e-9));
 
@@ -74,7 +68,7 @@ ExploredMap Explore(const Score& score,
   map.columns = 2 * east_steps + 1;
   map.rows = 2 * north_steps + 1;
   map.spacing_m = options.spacing_m;
-  map.first = scene.model().origin_in_world.head<2>() + space.center() -
+  map.first = scorer.scene().model().origin_in_world.head<2>() + space.center() -
               options.spacing_m * Eigen::Vector2d(east_steps, north_steps);
   const std::size_t cells = static_cast<std::size_t>(map.columns) * map.rows;
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -89,11 +83,11 @@ ExploredMap Explore(const Score& score,
     const auto position = space.PositionAt(
         (column - east_steps) * options.spacing_m, (row - north_steps) * options.spacing_m, 0.0);
     if (!position) return;
-    const PositionView view = ViewFrom(scene, *position, panorama, score.parts());
-    PictureEvidence::Workspace workspace;
+    PoseScorer::Look look(scorer);
+    look.From(*position, panorama);
     const auto evaluate = [&](const ViewAngles& a) {
       const PoseSpace::Offset offset{0.0, 0.0, 0.0, a.heading_deg, a.pitch_deg, a.roll_deg};
-      return score.LogRatio(view, {CamFromWorld(space.AnglesAt(offset)), *position}, workspace);
+      return look.PictureLogRatio({CamFromWorld(space.AnglesAt(offset)), *position});
     };
     std::vector<Tried> tried;
     for (int h = -heading_steps; h <= heading_steps; ++h) {

@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "localize/localization.h"
-#include "localize/pose_space.h"
-#include "score/score.h"
+#include "localize/pose_scorer.h"
 
 namespace ridgeline {
 
@@ -29,12 +28,6 @@ struct ExploredMap {
 // Exhaustive exploration of Ayadi et al., section 6.2 and its Fig. 9. At each position all headings
 // of the box are tried, and from the best ones heading, pitch and roll are improved together until
 // steps of 1/8 degree gain nothing. Parallel over positions.
-ExploredMap Explore(const Score& score,
-                    const Scene& scene,
-                    const PoseSpace& space,
-                    const PinholeCamera& camera,
-                    double surface_step_rad,
-                    const ExploreOptions& options,
-                    int threads);
+ExploredMap Explore(const PoseScorer& scorer, const ExploreOptions& options, int threads);
 
 }  // namespace ridgeline

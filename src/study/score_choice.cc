@@ -4,12 +4,15 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "score/cue_table.h"
+#include "score/score_table.h"
 
 namespace ridgeline {
 
 std::vector<std::string> StudyScoreNames() {
   std::vector<std::string> names = ScoreNames();
-  names.insert(names.end(), kCueNames.begin(), kCueNames.end());
+  const std::vector<std::string> cues = CueNames();
+  names.insert(names.end(), cues.begin(), cues.end());
   return names;
 }
 
@@ -31,16 +34,13 @@ std::vector<ScoreChoice> ChooseScores(const std::vector<std::string>& names,
         choices.begin(), choices.end(), [&](const ScoreChoice& c) { return c.name == name; });
     if (is_chosen) continue;
     ScoreChoice choice{name, base};
-    const auto cue = std::find(kCueNames.begin(), kCueNames.end(), name);
-    if (cue == kCueNames.end()) {
+    const auto weight = base.weights.find(name);
+    if (weight == base.weights.end()) {
       choice.options.name = name;
     } else {
       choice.options.name = "evidence";
-      const auto k = static_cast<std::size_t>(cue - kCueNames.begin());
       // The weight keeps the energies readable: one nat of a cue is much, of another nothing.
-      const double weight = base.weights[k] > 0.0 ? base.weights[k] : 1.0;
-      choice.options.weights.assign(kCues, 0.0);
-      choice.options.weights[k] = weight;
+      choice.options.weights = {{name, weight->second > 0.0 ? weight->second : 1.0}};
     }
     choices.push_back(std::move(choice));
   }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "localize/localizer_options.h"
+#include "score/score_options.h"
 
 namespace ridgeline {
 

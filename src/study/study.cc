@@ -8,8 +8,11 @@
 
 #include "base/error.h"
 #include "eval/bench.h"
-#include "localize/make_score.h"
+#include "localize/pose_scorer.h"
 #include "localize/sampled_search.h"
+#include "localize/search_poses.h"
+#include "score/picture_evidence.h"
+#include "score/score_table.h"
 
 namespace ridgeline {
 namespace {
@@ -25,10 +28,8 @@ class QueryStudy {
         options_(options),
         truth_(*query.truth),
         prior_(input.prior),
-        bgr_(UndistortImage(BgrOf(input.picture), input.camera)),
-        camera_(input.camera.Pinhole()),
-        evidence_(bgr_,
-                  camera_,
+        evidence_(UndistortImage(BgrOf(input.picture), input.camera),
+                  input.camera.Pinhole(),
                   localizer.options().lines,
                   localizer.options().score.evidence,
                   options.threads,
@@ -45,26 +46,9 @@ class QueryStudy {
   ScoreStudy Map(const ScoreChoice& choice) const {
     const auto start = std::chrono::steady_clock::now();
     const MapOptions& map = localizer_.options().search.map;
-    const double spacing_m = SpacingOf(space_.ranges(), map);
-    const std::unique_ptr<Score> score = Make(choice, std::max(1.0, spacing_m));
-    constexpr double kTiltSeparationDeg = 1.0;
-    const std::vector<Tilt> tilts = FindTilts(evidence_.segments(),
-                                              evidence_.camera(),
-                                              space_.center_angles(),
-                                              space_.ranges().pitch_deg,
-                                              space_.ranges().roll_deg,
-                                              kTiltSeparationDeg,
-                                              map.tilts);
-    const ScoredMap scored = WithErrors(ComputeVolume(*score,
-                                                      localizer_.scene(),
-                                                      space_,
-                                                      evidence_.camera(),
-                                                      tilts,
-                                                      SurfaceStep(),
-                                                      map,
-                                                      options_.threads),
-                                        space_,
-                                        truth_);
+    const std::unique_ptr<Score> score = Make(choice);
+    const ScoredMap scored =
+        WithErrors(MapPoses(ScorerOf(*score), evidence_, map, options_.threads), space_, truth_);
     ScoreStudy study;
     study.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     study.prior = prior_;
@@ -96,14 +80,9 @@ class QueryStudy {
     SearchOptions search = localizer_.options().search;
     search.sampler.name = "tpe";
     search.evaluations = options_.classes.back();
-    const SampledSearch sampled = SampleSearch(*Make(choice, 1.0),
-                                               localizer_.scene(),
-                                               space_,
-                                               evidence_.camera(),
-                                               SurfaceStep(),
-                                               search,
-                                               options_.seed,
-                                               options_.threads);
+    const std::unique_ptr<Score> score = Make(choice);
+    const SampledSearch sampled =
+        SampleSearch(ScorerOf(*score), search, options_.seed, options_.threads);
     for (const Trial& trial : sampled.trace.trials) {
       if (trial.state != TrialState::kComplete) continue;
       const std::vector<double>& v = trial.values;
@@ -125,28 +104,28 @@ class QueryStudy {
   void AddExplored(const ScoreChoice& choice, ScoreStudy& study) const {
     ExploreOptions explore;
     explore.heading_step_deg = localizer_.options().search.map.heading_step_deg;
-    study.explored = Explore(*Make(choice, 1.0),
-                             localizer_.scene(),
-                             space_,
-                             evidence_.camera(),
-                             SurfaceStep(),
-                             explore,
-                             options_.threads);
+    const std::unique_ptr<Score> score = Make(choice);
+    study.explored = Explore(ScorerOf(*score), explore, options_.threads);
   }
 
  private:
-  std::unique_ptr<Score> Make(const ScoreChoice& choice, double tolerance_factor) const {
-    return MakeScore(
-        choice.options, evidence_, bgr_, camera_, localizer_.scene(), tolerance_factor);
+  std::unique_ptr<Score> Make(const ScoreChoice& choice) const {
+    return MakeScore({evidence_, localizer_.scene(), choice.options});
   }
 
-  double SurfaceStep() const {
-    return localizer_.options().score.evidence.surface_step_deg * std::numbers::pi / 180.0;
+  PoseScorer ScorerOf(const Score& score) const {
+    return {score,
+            localizer_.scene(),
+            space_,
+            evidence_.camera(),
+            localizer_.options().score.evidence.surface_step_deg};
   }
 
   int VisibleEdgesAtTruth() const {
+    const double step_rad =
+        localizer_.options().score.evidence.surface_step_deg * std::numbers::pi / 180.0;
     const PanoramaRange range =
-        RangeOf(evidence_.camera(), ViewAnglesOf(truth_.cam_from_world), {}, SurfaceStep());
+        RangeOf(evidence_.camera(), ViewAnglesOf(truth_.cam_from_world), {}, step_rad);
     const VisibleSet visible = localizer_.scene().VisibleFrom(truth_.center_in_world, range.sector);
     std::vector<ProjectedSegment> segments;
     ProjectPieces(visible, evidence_.camera(), truth_, segments);
@@ -170,8 +149,6 @@ class QueryStudy {
   const StudyOptions& options_;
   Pose truth_;  // local frame
   PosePrior prior_;
-  cv::Mat bgr_;
-  PinholeCamera camera_;
   PictureEvidence evidence_;
   PoseSpace space_;
 };

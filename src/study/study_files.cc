@@ -7,6 +7,7 @@
 
 #include "eval/csv_text.h"
 #include "score/score.h"
+#include "score/skyline_l1.h"
 
 namespace ridgeline {
 namespace {
@@ -222,7 +223,7 @@ std::string ExploredCsv(const ExploredMap& explored, const ScoreChoice& score) {
 }
 
 double SkylineDistanceOf(double energy, const ScoreOptions& options) {
-  return options.skyline_l1.half_energy_px * energy / (1.0 - energy);
+  return options.groups.Get<SkylineL1Options>().half_energy_px * energy / (1.0 - energy);
 }
 
 }  // namespace ridgeline

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "lines/detector_table.h"
 
 namespace ridgeline {
 namespace {
@@ -32,7 +33,6 @@ constexpr std::array<Limits, 6> kLimits = {{{"edges", 0.0, 100.0},
                                             {"footprints", 0.0, 50.0},
                                             {"focal", -50.0, 100.0},
                                             {"size", 64.0, 10000.0}}};
-constexpr std::array<const char*, 4> kDetectors = {"lsd", "edlines", "fld", "hough"};
 
 // The number of a level; NaN: it is none.
 double ValueOf(const std::string& level) {
@@ -44,8 +44,12 @@ double ValueOf(const std::string& level) {
 
 void CheckLevel(const std::string& name, const std::string& level) {
   if (name == "detector") {
-    if (std::find(kDetectors.begin(), kDetectors.end(), level) != kDetectors.end()) return;
-    throw InputError("--vary", name, "\"" + level + "\"", "lsd, edlines, fld or hough");
+    const std::vector<std::string> known = DetectorNames();
+    if (std::find(known.begin(), known.end(), level) != known.end()) return;
+    throw InputError("--vary",
+                     name,
+                     "\"" + level + "\"",
+                     "a detector, e.g. \"" + NearestName(level, known) + "\"");
   }
   const auto limits =
       std::find_if(kLimits.begin(), kLimits.end(), [&](const Limits& l) { return name == l.name; });
@@ -174,7 +178,7 @@ const std::vector<Variation>& Variations() {
       {"footprints", "shift of the buildings, sigma [m]", {"0", "0.25", "0.5", "1"}},
       {"focal", "error of the focal length [%]", {"-5", "-2", "0", "2", "5"}},
       {"size", "longer side of the picture compared [px]", {"240", "480", "640", "960"}},
-      {"detector", "detector of lines", {"lsd", "edlines", "fld", "hough"}}};
+      {"detector", "detector of lines", DetectorNames()}};
   return variations;
 }
 

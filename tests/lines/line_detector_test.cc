@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/error.h"
+#include "lines/detector_table.h"
 
 namespace ridgeline {
 namespace {
@@ -26,11 +27,13 @@ cv::Mat Rectangle() {
 // Distance of the segment's middle from the nearest border of the rectangle.
 double DistanceToBorder(const LineSegment& segment) {
   const Eigen::Vector2f m = 0.5f * (segment.a + segment.b);
-  return std::min({std::abs(m.x() - kLeft), std::abs(m.x() - kRight), std::abs(m.y() - kTop),
+  return std::min({std::abs(m.x() - kLeft),
+                   std::abs(m.x() - kRight),
+                   std::abs(m.y() - kTop),
                    std::abs(m.y() - kBottom)});
 }
 
-class EveryDetector : public testing::TestWithParam<const char*> {};
+class EveryDetector : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryDetector, FindsTheFourSidesOfARectangleInColmapsFrame) {
   LineDetectionOptions options;
@@ -65,7 +68,7 @@ TEST_P(EveryDetector, ABlackPictureHasNoLines) {
 
 INSTANTIATE_TEST_SUITE_P(Detectors,
                          EveryDetector,
-                         testing::Values("lsd", "edlines", "fld", "hough"),
+                         testing::ValuesIn(DetectorNames()),
                          [](const auto& detector) { return std::string(detector.param); });
 
 TEST(DetectLines, SixteenBitGreyAndAlphaGiveTheSameLines) {

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "optim/functions.h"
 #include "optim/minimize.h"
+#include "optim/sampler_table.h"
 
 namespace ridgeline {
 namespace {

@@ -10,8 +10,13 @@
 #include "base/error.h"
 #include "optim/batch_search.h"
 #include "optim/functions.h"
+#include "optim/gp_de.h"
+#include "optim/grid_search.h"
 #include "optim/minimize.h"
+#include "optim/nelder_mead.h"
+#include "optim/population.h"
 #include "optim/sobol.h"
+#include "optim/tpe.h"
 
 namespace ridgeline {
 namespace {
@@ -62,7 +67,7 @@ TEST(NelderMead, ConvergesOnRosenbrock) {
   problem.box = CubeBox(2, -2.0, 2.0);
   problem.start = {-1.2, 1.0};
   SamplerOptions options = Named("nelder_mead");
-  options.nelder_mead.steps = {0.1, 0.05, 0.01, 0.001};
+  options.groups.Get<NelderMeadOptions>().steps = {0.1, 0.05, 0.01, 0.001};
   EXPECT_LT(Search(options, problem, Rosenbrock, 300).Best()->energy, 1e-5);
 }
 
@@ -71,7 +76,7 @@ TEST(NelderMead, FirstStepIsTheOptionsFractionOfTheRange) {
   problem.box = CubeBox(3, 0.0, 10.0);
   problem.start = {5.0, 5.0, 9.0};
   SamplerOptions options = Named("nelder_mead");
-  options.nelder_mead.steps = {0.2};
+  options.groups.Get<NelderMeadOptions>().steps = {0.2};
   const Trace trace = Search(options, problem, Sphere, 4);
   EXPECT_NEAR(trace.trials[1].values[0], 7.0, 1e-12);
   EXPECT_NEAR(trace.trials[2].values[1], 7.0, 1e-12);
@@ -83,8 +88,8 @@ TEST(NelderMead, GroupsVaryTheirOwnVariables) {
   problem.box = CubeBox(3, -1.0, 1.0);
   problem.start = {0.5, 0.5, 0.5};
   SamplerOptions options = Named("nelder_mead");
-  options.nelder_mead.steps = {0.1};
-  options.nelder_mead.groups = {"x1", "x0,x2"};
+  options.groups.Get<NelderMeadOptions>().steps = {0.1};
+  options.groups.Get<NelderMeadOptions>().groups = {"x1", "x0,x2"};
   const Trace trace = Search(options, problem, Sphere, 60);
   // First x1 alone, then the others with x1 at rest.
   std::size_t i = 1;
@@ -96,7 +101,7 @@ TEST(NelderMead, GroupsVaryTheirOwnVariables) {
   EXPECT_NEAR(x1, 0.0, 0.05);
   EXPECT_EQ(trace.trials[i + 1].values[1], x1);
 
-  options.nelder_mead.groups = {"x0,y1"};
+  options.groups.Get<NelderMeadOptions>().groups = {"x0,y1"};
   EXPECT_THROW(MakeSampler(options, problem, 1), InputError);
 }
 
@@ -109,9 +114,9 @@ TEST(NelderMead, DecreasingStepsLeaveALocalMinimum) {
   problem.box = CubeBox(2, -1.0, 1.0);
   problem.start = {0.65, 0.6};
   SamplerOptions small = Named("nelder_mead");
-  small.nelder_mead.steps = {0.01};
+  small.groups.Get<NelderMeadOptions>().steps = {0.01};
   SamplerOptions decreasing = small;
-  decreasing.nelder_mead.steps = {0.3, 0.1, 0.03, 0.01};
+  decreasing.groups.Get<NelderMeadOptions>().steps = {0.3, 0.1, 0.03, 0.01};
   EXPECT_GT(Search(small, problem, rippled, 30).Best()->energy, 0.2);
   EXPECT_LT(Search(decreasing, problem, rippled, 150).Best()->energy, 0.01);
 }
@@ -136,7 +141,7 @@ TEST(GpDe, IsTheGaussianProcessFirstAndConvergesLikeDifferentialEvolution) {
   SearchProblem problem;
   problem.box = CubeBox(3, -2.0, 2.0);
   SamplerOptions options = Named("gp_de");
-  options.gp_de.gp_trials = 40;
+  options.groups.Get<GpDeOptions>().gp_trials = 40;
   const Trace trace = Search(options, problem, Rosenbrock, 3000);
   const Trace first = Search(Named("gp"), problem, Rosenbrock, 40);
   for (std::size_t i = 0; i < first.trials.size(); ++i) {
@@ -184,7 +189,7 @@ TEST(GpSampler, FindsABraninMinimumInFewTrials) {
 
 TEST(GpSampler, HoldsNoMoreThanItsPoints) {
   SamplerOptions options = Named("gp");
-  options.gp.max_points = 40;
+  options.groups.Get<GpOptions>().max_points = 40;
   const Trace trace = Search(options, {PoseLikeBox(), {}, {}}, PoseLikeEnergy, 150);
   EXPECT_EQ(trace.trials.size(), 150u);
   EXPECT_LT(trace.Best()->energy, 0.01);
@@ -233,16 +238,23 @@ TEST(SamplerOptions, BadValuesNameTheirField) {
   EXPECT_EQ(message([](SamplerOptions&) {}), "");
   EXPECT_EQ(message([](SamplerOptions& o) { o.name = "cma"; }),
             "sampler.name: got \"cma\", expected a known sampler, e.g. \"cmaes\"");
-  EXPECT_EQ(message([](SamplerOptions& o) { o.tpe.candidates = 0; }),
+  EXPECT_EQ(message([](SamplerOptions& o) { o.groups.Get<TpeOptions>().candidates = 0; }),
             "sampler.tpe.candidates: got 0, expected >= 1");
-  EXPECT_EQ(message([](SamplerOptions& o) { o.tpe.good_fraction = std::nan(""); }),
-            "sampler.tpe.good_fraction: got nan, expected a value in (0, 1)");
-  EXPECT_NE(message([](SamplerOptions& o) { o.nelder_mead.steps = {0.1, 0.0}; }), "");
-  EXPECT_NE(message([](SamplerOptions& o) { o.nelder_mead.steps.clear(); }), "");
-  EXPECT_NE(message([](SamplerOptions& o) { o.cmaes.sigma = -1.0; }), "");
-  EXPECT_NE(message([](SamplerOptions& o) { o.de.variant = 11; }), "");
-  EXPECT_NE(message([](SamplerOptions& o) { o.gp.max_points = 0; }), "");
-  EXPECT_NE(message([](SamplerOptions& o) { o.grid.finest = 0.0; }), "");
+  EXPECT_EQ(
+      message([](SamplerOptions& o) { o.groups.Get<TpeOptions>().good_fraction = std::nan(""); }),
+      "sampler.tpe.good_fraction: got nan, expected a value in (0, 1)");
+  EXPECT_NE(message([](SamplerOptions& o) {
+              o.groups.Get<NelderMeadOptions>().steps = {0.1, 0.0};
+            }),
+            "");
+  EXPECT_NE(message([](SamplerOptions& o) { o.groups.Get<NelderMeadOptions>().steps.clear(); }),
+            "");
+  EXPECT_NE(message([](SamplerOptions& o) { o.groups.Get<CmaEsOptions>().sigma = -1.0; }), "");
+  EXPECT_NE(
+      message([](SamplerOptions& o) { o.groups.Get<DifferentialEvolutionOptions>().variant = 11; }),
+      "");
+  EXPECT_NE(message([](SamplerOptions& o) { o.groups.Get<GpOptions>().max_points = 0; }), "");
+  EXPECT_NE(message([](SamplerOptions& o) { o.groups.Get<GridOptions>().finest = 0.0; }), "");
 }
 
 }  // namespace

@@ -147,13 +147,14 @@ TEST_F(Study, BadInputIsNamed) {
 
 TEST_F(Study, ACueIsTheEvidenceWithItsWeightAlone) {
   ScoreOptions base;
-  base.weights = {1, 2, 3, 4, 5, 6, 7, 8, 0};
+  base.weights["sky"] = 6.0;
+  base.weights["facade_colours"] = 0.0;
   const auto choices = ChooseScores({"sky", "line_energy", "sky", "facade_colours"}, base);
   ASSERT_EQ(choices.size(), 3u);
   EXPECT_EQ(choices[0].options.name, "evidence");
-  EXPECT_EQ(choices[0].options.weights, (std::vector<double>{0, 0, 0, 0, 0, 6, 0, 0, 0}));
+  EXPECT_EQ(choices[0].options.weights, (std::map<std::string, double>{{"sky", 6.0}}));
   EXPECT_EQ(choices[1].options.name, "line_energy");
-  EXPECT_EQ(choices[2].options.weights, (std::vector<double>{0, 0, 0, 0, 0, 0, 0, 0, 1}));
+  EXPECT_EQ(choices[2].options.weights, (std::map<std::string, double>{{"facade_colours", 1.0}}));
 }
 
 TEST(StudySummary, CountsQueriesWithoutFiguresAsNotFound) {

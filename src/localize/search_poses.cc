@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "localize/search_poses.h"
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include "base/parallel.h"
+#include "localize/gravity.h"
+#include "localize/refine_pose.h"
+#include "localize/sampled_search.h"
+
+namespace ridgeline {
+namespace {
+
+// Refines the first `count` modes, until those that are left could not become the best by gaining
+// half as much again as the most any has gained.
+void RefineWhileHopeful(const std::vector<ScoredPose>& modes,
+                        std::size_t count,
+                        const std::function<void(std::size_t first, std::size_t count)>& refine) {
+  constexpr std::size_t kAtATime = 2;  // not the number of threads: results must not depend on it
+  constexpr double kGainFactor = 1.5;
+  constexpr double kMargin = 2.0;
+  double best = modes.front().log_ratio;
+  double gain = 0.0;
+  for (std::size_t done = 0; done < count; done += kAtATime) {
+    if (modes[done].log_ratio + kGainFactor * gain + kMargin < best) break;
+    const std::size_t end = std::min(count, done + kAtATime);
+    const std::vector<ScoredPose> before(modes.begin() + done, modes.begin() + end);
+    refine(done, end - done);
+    for (std::size_t i = done; i < end; ++i) {
+      gain = std::max(gain, modes[i].log_ratio - before[i - done].log_ratio);
+      best = std::max(best, modes[i].log_ratio);
+    }
+  }
+}
+
+void SortBestFirst(std::vector<ScoredPose>& modes) {
+  std::stable_sort(modes.begin(), modes.end(), [](const ScoredPose& x, const ScoredPose& y) {
+    return x.log_ratio > y.log_ratio;
+  });
+}
+
+}  // namespace
+
+PoseVolume MapPoses(const PoseScorer& scorer,
+                    const PictureEvidence& picture,
+                    const MapOptions& options,
+                    int threads) {
+  constexpr double kTiltSeparationDeg = 1.0;
+  const PoseSpaceOptions& ranges = scorer.space().ranges();
+  const std::vector<Tilt> tilts = FindTilts(picture.segments(),
+                                            picture.camera(),
+                                            scorer.space().center_angles(),
+                                            ranges.pitch_deg,
+                                            ranges.roll_deg,
+                                            kTiltSeparationDeg,
+                                            options.tilts);
+  // Between the places of a wide grid the model's edges are off by as much as the model errs.
+  const double spacing_m = SpacingOf(ranges, options);
+  const std::unique_ptr<Score> tolerant =
+      spacing_m > 1.0 ? scorer.score().Tolerant(spacing_m) : nullptr;
+  return ComputeVolume(tolerant ? scorer.With(*tolerant) : scorer, tilts, options, threads);
+}
+
+SearchedPoses SearchPoses(const PoseScorer& scorer,
+                          const PictureEvidence& picture,
+                          const SearchOptions& options,
+                          std::uint64_t seed,
+                          int threads) {
+  SearchedPoses found;
+  if (options.method == "map") {
+    found.volume = MapPoses(scorer, picture, options.map, threads);
+    found.spacing_m = SpacingOf(scorer.space().ranges(), options.map);
+    found.evaluations = found.volume->evaluations;
+    found.modes = FindModes(*found.volume, scorer.space(), options.map);
+  } else {
+    SampledSearch search = SampleSearch(scorer, options, seed, threads);
+    found.evaluations = search.trace.trials.size();
+    found.modes = std::move(search.modes);
+  }
+  return found;
+}
+
+std::uint64_t RefineModes(const PoseScorer& scorer, int threads, SearchedPoses& found) {
+  std::vector<ScoredPose>& modes = found.modes;
+  std::uint64_t total = 0;
+  const auto refine = [&](std::size_t first, std::size_t count, const RefineSteps& steps) {
+    std::vector<std::uint64_t> evaluations(count);
+    ParallelFor(count, threads, [&](std::size_t i) {
+      const RefinedPose refined = RefinePose(scorer, modes[first + i], steps);
+      modes[first + i] = refined.pose;
+      evaluations[i] = refined.evaluations;
+    });
+    for (const std::uint64_t n : evaluations) total += n;
+  };
+  refine(0, modes.size(), {0.5 * found.spacing_m, 0.5, 0.3});
+  SortBestFirst(modes);
+  const std::size_t better = (modes.size() + 2) / 3;
+  RefineWhileHopeful(modes, better, [&](std::size_t first, std::size_t count) {
+    refine(first, count, {0.25, 0.25, 0.06});
+  });
+  SortBestFirst(modes);
+  return total;
+}
+
+}  // namespace ridgeline

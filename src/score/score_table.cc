@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "score/score_table.h"
+
+#include <array>
+
+#include "base/error.h"
+
+namespace ridgeline {
+
+extern const ScorePlugin kEvidenceScore;
+extern const ScorePlugin kGradientScore;
+extern const ScorePlugin kLineEnergyScore;
+extern const ScorePlugin kOrientedChamferScore;
+extern const ScorePlugin kSkylineL1Score;
+extern const ScorePlugin kUnexplainedScore;
+extern const ScorePlugin kZbufferLineEnergyScore;
+
+std::span<const ScorePlugin* const> ScoreTable() {
+  static constexpr std::array kTable = {&kEvidenceScore,
+                                        &kLineEnergyScore,
+                                        &kZbufferLineEnergyScore,
+                                        &kSkylineL1Score,
+                                        &kGradientScore,
+                                        &kOrientedChamferScore,
+                                        &kUnexplainedScore};
+  return kTable;
+}
+
+std::vector<std::string> ScoreNames() {
+  std::vector<std::string> names;
+  for (const ScorePlugin* score : ScoreTable()) names.emplace_back(score->name);
+  return names;
+}
+
+const ScorePlugin& FindScore(const std::string& name) {
+  std::string known;
+  for (const ScorePlugin* score : ScoreTable()) {
+    if (score->name == name) return *score;
+    known += (known.empty() ? "" : ", ") + std::string(score->name);
+  }
+  throw InputError("", "score.name", "\"" + name + "\"", "one of " + known);
+}
+
+std::unique_ptr<Score> MakeScore(const ScoreContext& context) {
+  return FindScore(context.options.name).make(context);
+}
+
+}  // namespace ridgeline

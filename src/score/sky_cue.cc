@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sky: the likelihood (sky_table.h, with the source) of the model's skyline in the picture's
+// columns, given how much each pixel looks like sky.
+#include <opencv2/imgproc.hpp>
+
+#include "score/cue.h"
+#include "score/sky_score.h"
+#include "score/sky_table.h"
+#include "skyline/sky_likelihood.h"
+
+namespace ridgeline {
+namespace {
+
+// Leaves may be before sky or before a building.
+cv::Mat SkyLogOddsOf(const PictureEvidence& picture) {
+  cv::Mat log_odds = SkyLogOdds(picture.bgr(), SkyLikelihoodOptions{});
+  cv::Mat covered;
+  cv::resize(picture.foliage(), covered, log_odds.size(), 0.0, 0.0, cv::INTER_AREA);
+  log_odds.setTo(0.0f, covered > 127);
+  return log_odds;
+}
+
+class SkyCue final : public Cue {
+ public:
+  SkyCue(const PictureEvidence& picture, const SkyTableOptions& options)
+      : table_(SkyLogOddsOf(picture), options),
+        camera_(picture.camera().Scaled(static_cast<double>(table_.columns()) /
+                                        picture.camera().width)) {}
+
+  std::unique_ptr<Workspace> NewWorkspace() const override {
+    auto memory = std::make_unique<Memory>();
+    memory->rows.resize(table_.columns());
+    return memory;
+  }
+
+  void LogRatios(const CuePose& pose,
+                 Workspace* workspace,
+                 std::span<float> log_ratios) const override {
+    std::vector<float>& rows = static_cast<Memory*>(workspace)->rows;
+    SkylineRows(pose.view.skyline, camera_, pose.cam_from_local, rows);
+    log_ratios[0] = static_cast<float>(SkyLogRatio(table_, rows));
+  }
+
+ private:
+  struct Memory final : Workspace {
+    std::vector<float> rows;  // of the model's skyline, by column
+  };
+
+  SkyTable table_;
+  PinholeCamera camera_;
+};
+
+constexpr CueName kNames[] = {{"sky", 4.44}};
+
+}  // namespace
+
+extern const CuePlugin kSkyCue;
+constinit const CuePlugin kSkyCue = {
+    .names = kNames,
+    .parts = {.edges_and_skyline = true, .surfaces = false},
+    .declare = [](OptionGroups& options) { options.Add<SkyTableOptions>("sky"); },
+    .make = [](const CueContext& c) -> std::shared_ptr<const Cue> {
+      return std::make_shared<SkyCue>(c.picture, c.options.Get<SkyTableOptions>());
+    }};
+
+}  // namespace ridgeline
