@@ -15,7 +15,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "eval/bench.h"
-#include "eval/world.h"
+#include "input/world.h"
 #include "localize/pose_space.h"
 
 namespace ridgeline {

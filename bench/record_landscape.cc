@@ -10,7 +10,7 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "eval/bench.h"
-#include "eval/world.h"
+#include "input/world.h"
 #include "localize/make_score.h"
 #include "localize/pose_volume.h"
 
@@ -56,10 +56,14 @@ void Record(const Query& query, const Localizer& localizer, const Settings& sett
 
   const LocalizerOptions& options = localizer.options();
   const cv::Mat bgr = UndistortImage(BgrOf(input.picture), input.camera);
-  const PictureEvidence evidence(
-      bgr, input.camera.Pinhole(), options.lines, options.score.evidence, settings.threads,
-      input.lines);
-  const auto score = MakeScore(options.score, evidence, bgr, input.camera.Pinhole(), localizer.scene(), 1.0);
+  const PictureEvidence evidence(bgr,
+                                 input.camera.Pinhole(),
+                                 options.lines,
+                                 options.score.evidence,
+                                 settings.threads,
+                                 input.lines);
+  const auto score =
+      MakeScore(options.score, evidence, bgr, input.camera.Pinhole(), localizer.scene(), 1.0);
   const PoseSpace space(
       input.prior, ranges, localizer.scene(), localizer.dtm(), localizer.footprints());
   const ViewAngles& center = space.center_angles();

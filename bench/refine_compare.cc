@@ -11,7 +11,7 @@
 
 #include "base/error.h"
 #include "eval/bench.h"
-#include "eval/world.h"
+#include "input/world.h"
 #include "localize/fit_pose.h"
 #include "localize/make_score.h"
 #include "localize/refine_pose.h"
@@ -52,14 +52,17 @@ class Comparison {
     const PinholeCamera camera = input.camera.Pinhole();
     const PictureEvidence evidence(
         bgr, camera, options.lines, options.score.evidence, 1, input.lines);
-    const auto score =
-        MakeScore(options.score, evidence, bgr, camera, localizer_.scene(), 1.0);
+    const auto score = MakeScore(options.score, evidence, bgr, camera, localizer_.scene(), 1.0);
     const Perturbation half = ParsePerturbation(settings_.perturb);
     const double step_rad = options.score.evidence.surface_step_deg * std::numbers::pi / 180.0;
     // The compass search must be able to reach the truth.
     Perturbation box = half;
-    for (double* value : {&box.east_m, &box.north_m, &box.height_m, &box.heading_deg,
-                          &box.pitch_deg, &box.roll_deg}) {
+    for (double* value : {&box.east_m,
+                          &box.north_m,
+                          &box.height_m,
+                          &box.heading_deg,
+                          &box.pitch_deg,
+                          &box.roll_deg}) {
       *value *= 2.0;
     }
     const PoseSpaceOptions ranges = RangesOf(options.search.space, box);
@@ -69,15 +72,24 @@ class Comparison {
           prior, ranges, localizer_.scene(), localizer_.dtm(), localizer_.footprints());
       if (!space.PoseAt({})) continue;
       const auto compass = [&](const PoseSpace::Offset& start, const RefineSteps& steps) {
-        return RefinePose(*score, localizer_.scene(), space, evidence.camera(), step_rad,
-                          {start, 0.0}, steps)
+        return RefinePose(*score,
+                          localizer_.scene(),
+                          space,
+                          evidence.camera(),
+                          step_rad,
+                          {start, 0.0},
+                          steps)
             .pose.offset;
       };
       const auto fit = [&](const PoseSpace::Offset& start, double tolerance) {
         PoseFitOptions fit_options = settings_.fit;
         fit_options.first_tolerance = tolerance;
-        return FitPose({evidence.segments(), evidence.field(), evidence.camera()}, localizer_.scene(), space, options.score.evidence.lines,
-                       fit_options, start);
+        return FitPose({evidence.segments(), evidence.field(), evidence.camera()},
+                       localizer_.scene(),
+                       space,
+                       options.score.evidence.lines,
+                       fit_options,
+                       start);
       };
       const double first = settings_.fit.first_tolerance;
       Add(query, seed, "start", space, [&] { return PoseSpace::Offset{}; });
@@ -88,8 +100,9 @@ class Comparison {
         return last.offset;
       });
       AddNormalized(query, space, "fit", last);
-      Add(query, seed, "fit, then compass", space,
-          [&] { return compass(fit({}, first).offset, {0.12, 0.12, 0.06}); });
+      Add(query, seed, "fit, then compass", space, [&] {
+        return compass(fit({}, first).offset, {0.12, 0.12, 0.06});
+      });
       Add(query, seed, "compass, then fit", space, [&] {
         last = fit(compass({}, {0.5, 0.5, 0.06}), 1.0);
         return last.offset;
@@ -102,29 +115,46 @@ class Comparison {
   }
 
   void Print() const {
-    std::printf("%-26s %8s %8s %8s %8s %8s %6s %9s\n", "", "median m", "75 %", "90 %", "med deg",
-                "90 %", "0.5/.5", "med ms");
+    std::printf("%-26s %8s %8s %8s %8s %8s %6s %9s\n",
+                "",
+                "median m",
+                "75 %",
+                "90 %",
+                "med deg",
+                "90 %",
+                "0.5/.5",
+                "med ms");
     for (const auto& [name, o] : outcomes_) {
       double good = 0.0;
       for (std::size_t i = 0; i < o.translations_m.size(); ++i) {
         if (o.translations_m[i] <= 0.5 && o.rotations_deg[i] <= 0.5) good += 1.0;
       }
-      std::printf("%-26s %8.3f %8.3f %8.3f %8.3f %8.3f %5.0f%% %9.2f\n", name.c_str(),
-                  Quantile(o.translations_m, 0.5), Quantile(o.translations_m, 0.75),
-                  Quantile(o.translations_m, 0.9), Quantile(o.rotations_deg, 0.5),
-                  Quantile(o.rotations_deg, 0.9), 100.0 * good / o.translations_m.size(),
+      std::printf("%-26s %8.3f %8.3f %8.3f %8.3f %8.3f %5.0f%% %9.2f\n",
+                  name.c_str(),
+                  Quantile(o.translations_m, 0.5),
+                  Quantile(o.translations_m, 0.75),
+                  Quantile(o.translations_m, 0.9),
+                  Quantile(o.rotations_deg, 0.5),
+                  Quantile(o.rotations_deg, 0.9),
+                  100.0 * good / o.translations_m.size(),
                   Quantile(o.milliseconds, 0.5));
       if (!o.normalized.empty()) {
-        std::printf("%-26s squared Mahalanobis distance of the place: median %.2f, 90 %%: %.2f "
-                    "(expected 1.39, 4.61)\n",
-                    "", Quantile(o.normalized, 0.5), Quantile(o.normalized, 0.9));
+        std::printf(
+            "%-26s squared Mahalanobis distance of the place: median %.2f, 90 %%: %.2f "
+            "(expected 1.39, 4.61)\n",
+            "",
+            Quantile(o.normalized, 0.5),
+            Quantile(o.normalized, 0.9));
       }
     }
   }
 
  private:
   template <typename Refine>
-  void Add(const Query& query, int seed, const char* name, const PoseSpace& space,
+  void Add(const Query& query,
+           int seed,
+           const char* name,
+           const PoseSpace& space,
            const Refine& refine) {
     const auto start = std::chrono::steady_clock::now();
     const PoseSpace::Offset offset = refine();
@@ -138,8 +168,13 @@ class Comparison {
     outcome.rotations_deg.push_back(error.rotation_deg);
     outcome.milliseconds.push_back(1000.0 * seconds);
     if (settings_.each) {
-      std::printf("%s %d %-26s %7.3f m %7.3f deg %8.2f ms\n", query.id.c_str(), seed, name,
-                  error.translation_m, error.rotation_deg, 1000.0 * seconds);
+      std::printf("%s %d %-26s %7.3f m %7.3f deg %8.2f ms\n",
+                  query.id.c_str(),
+                  seed,
+                  name,
+                  error.translation_m,
+                  error.rotation_deg,
+                  1000.0 * seconds);
     }
   }
 
@@ -155,11 +190,18 @@ class Comparison {
     outcomes_[name].normalized.push_back(
         error.dot(fit.covariance.topLeftCorner<2, 2>().inverse() * error));
     if (settings_.each) {
-      std::printf("   matches %d, rounds %d, sigma0 %.2f, sigmas %.3f %.3f m %.3f deg, overhang "
-                  "%.2f +- %.2f m, focal %.4f\n",
-                  fit.matches, fit.rounds, fit.sigma0, std::sqrt(fit.covariance(0, 0)),
-                  std::sqrt(fit.covariance(1, 1)), std::sqrt(fit.covariance(3, 3)), fit.overhang_m,
-                  fit.overhang_sigma_m, fit.focal_factor);
+      std::printf(
+          "   matches %d, rounds %d, sigma0 %.2f, sigmas %.3f %.3f m %.3f deg, overhang "
+          "%.2f +- %.2f m, focal %.4f\n",
+          fit.matches,
+          fit.rounds,
+          fit.sigma0,
+          std::sqrt(fit.covariance(0, 0)),
+          std::sqrt(fit.covariance(1, 1)),
+          std::sqrt(fit.covariance(3, 3)),
+          fit.overhang_m,
+          fit.overhang_sigma_m,
+          fit.focal_factor);
     }
   }
 
@@ -188,7 +230,8 @@ int main(int argc, char** argv) {
   std::vector<std::string> assignments;
   CLI::App app("Compares refinements of poses drawn around the truth");
   app.add_option("dataset", settings.dataset, "dataset.json")->required();
-  app.add_option("--perturb", settings.perturb,
+  app.add_option("--perturb",
+                 settings.perturb,
                  "half-ranges of the starts: east, north, height, heading[, pitch, roll]");
   app.add_option("--seeds", settings.seeds, "of the starts")->delimiter(',');
   app.add_flag("--each", settings.each, "print every run");

@@ -13,8 +13,8 @@
 #include "cli/run_outputs.h"
 #include "eval/bench.h"
 #include "eval/bench_files.h"
-#include "eval/picture_input.h"
-#include "eval/world.h"
+#include "input/picture_input.h"
+#include "input/world.h"
 
 namespace ridgeline {
 namespace {

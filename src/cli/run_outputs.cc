@@ -8,7 +8,7 @@
 #include "cli/file_name.h"
 #include "cli/out_folder.h"
 #include "cli/version.h"
-#include "eval/read_picture.h"
+#include "input/read_picture.h"
 #include "report/bench_report.h"
 #include "report/html_report.h"
 #include "report/map_files.h"

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "city/read_city.h"
-#include "eval/dataset.h"
+#include "input/dataset.h"
 
 namespace ridgeline {
 namespace {

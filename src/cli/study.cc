@@ -12,7 +12,7 @@
 #include "cli/progress.h"
 #include "cli/study_output.h"
 #include "cli/version.h"
-#include "eval/world.h"
+#include "input/world.h"
 #include "report/html_report.h"
 #include "report/study_report.h"
 

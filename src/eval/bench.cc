@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "eval/read_picture.h"
+#include "input/read_picture.h"
 #include "lines/segments_file.h"
 
 namespace ridgeline {
@@ -38,7 +38,9 @@ LocalizationInput InputOf(const Query& query, const LocalizerOptions& options) {
   if (query.prior) input.prior = *query.prior;
   if (options.lines.detector == "file") {
     if (!query.lines) {
-      throw InputError(query.image.string(), "lines", "none",
+      throw InputError(query.image.string(),
+                       "lines",
+                       "none",
                        "a file of segments, since lines.detector is \"file\"");
     }
     input.lines = ReadSegments(*query.lines, *query.camera);

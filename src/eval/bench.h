@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "eval/dataset.h"
 #include "eval/metrics.h"
 #include "eval/perturb.h"
+#include "input/dataset.h"
 #include "localize/localizer.h"
 
 namespace ridgeline {

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "eval/read_picture.h"
+#include "input/read_picture.h"
 #include "report/hillshade.h"
 #include "report/overlay_layers.h"
 

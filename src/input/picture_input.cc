@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "eval/picture_input.h"
+#include "input/picture_input.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include "city/crs.h"
 #include "city/read_city.h"
 #include "city/terrain.h"
-#include "eval/read_picture.h"
+#include "input/read_picture.h"
 
 namespace ridgeline {
 namespace {

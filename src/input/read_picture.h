@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
 
-#include "eval/dataset.h"
+#include "input/dataset.h"
 
 namespace ridgeline {
 

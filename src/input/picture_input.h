@@ -8,8 +8,7 @@
 
 #include "camera/picture_facts.h"
 #include "city/city_model.h"
-#include "eval/dataset.h"
-#include "localize/pose_space.h"
+#include "input/dataset.h"
 
 namespace ridgeline {
 

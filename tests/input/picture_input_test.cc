@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "eval/picture_input.h"
+#include "input/picture_input.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "camera/magnetic_declination.h"
-#include "eval/read_picture.h"
+#include "input/read_picture.h"
 #include "support/exif_writer.h"
 
 namespace ridgeline {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "eval/read_picture.h"
+#include "input/read_picture.h"
 
 #include <opencv2/imgcodecs.hpp>
 #include <string>

@@ -9,7 +9,7 @@
 #include "city/city_model.h"
 #include "city/read_city.h"
 #include "city/terrain.h"
-#include "eval/dataset.h"
+#include "input/dataset.h"
 
 namespace ridgeline {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "eval/world.h"
+#include "input/world.h"
 
 namespace ridgeline {
 namespace {
