@@ -98,7 +98,8 @@ void AddPoses(const Grid& grid,
 // The box of the perturbation, densely, and decoys from farther away, in all headings.
 Box BoxOf(const Query& query, int seed, const Localizer& localizer, const Settings& settings) {
   const LocalizerOptions& options = settings.options;
-  const LocalizationInput input = InputOf(query, options);
+  PictureReader pictures;
+  const LocalizationInput input = InputOf(query, options, pictures);
   const PictureEvidence evidence(UndistortImage(BgrOf(input.picture), input.camera),
                                  input.camera.Pinhole(),
                                  options.lines,

@@ -47,7 +47,8 @@ class Comparison {
 
   void Run(const Query& query) {
     const LocalizerOptions& options = settings_.options;
-    LocalizationInput input = InputOf(query, options);
+    PictureReader pictures;
+    LocalizationInput input = InputOf(query, options, pictures);
     const cv::Mat bgr = UndistortImage(BgrOf(input.picture), input.camera);
     const PinholeCamera camera = input.camera.Pinhole();
     const PictureEvidence evidence(

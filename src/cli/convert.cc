@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -64,6 +65,21 @@ void CompleteDataset(const ConvertArguments& arguments, bool is_dataset, Dataset
   for (Query& query : dataset.queries) query.image = folder / query.image;
 }
 
+// Options of a dataset, where none is written; and a folder of pictures that is known already.
+void RefuseIdle(const ConvertArguments& arguments, const std::string& from, const std::string& to) {
+  if (from == "dataset" && !arguments.images.empty()) {
+    throw InputError("--images", "", "a folder beside a dataset", "the dataset's own pictures");
+  }
+  if (to == "dataset") return;
+  const std::pair<bool, const char*> given[] = {{!arguments.name.empty(), "--name"},
+                                                {!arguments.model.empty(), "--model"},
+                                                {!arguments.dtm.empty(), "--dtm"},
+                                                {!arguments.images.empty(), "--images"}};
+  for (const auto& [is_given, option] : given) {
+    if (is_given) throw InputError(option, "", "an output of format " + to, "a dataset (.json)");
+  }
+}
+
 int RunConvert(const ConvertArguments& arguments, const Context& context) {
   const ConvertOptions options = OptionsOf(arguments);
   const std::string to = arguments.to.empty() ? FormatOfOutput(arguments.out) : arguments.to;
@@ -73,6 +89,7 @@ int RunConvert(const ConvertArguments& arguments, const Context& context) {
   for (std::size_t i = 1; i < arguments.inputs.size(); ++i) {
     Merge(ReadInput(arguments.inputs[i], "", options), dataset);
   }
+  RefuseIdle(arguments, from, to);
   if (to == "dataset") {
     CompleteDataset(arguments, from == "dataset", dataset);
   } else if (from == "dataset") {

@@ -216,6 +216,19 @@ Dataset ReadDataset(const std::filesystem::path& path) {
   return dataset;
 }
 
+std::size_t FindQuery(const Dataset& dataset, const std::string& id, const std::string& option) {
+  std::vector<std::string> ids;
+  for (const Query& query : dataset.queries) {
+    if (query.id == id) return ids.size();
+    ids.push_back(query.id);
+  }
+  throw InputError(
+      option,
+      "",
+      id.empty() ? "nothing" : "\"" + id + "\"",
+      "a query of " + dataset.file.string() + ", e.g. \"" + NearestName(id, ids) + "\"");
+}
+
 PosePrior ReadPrior(const std::filesystem::path& path) {
   const Json json = ParseFile(path);
   return PriorOf(Node(json, path.string(), ""));

@@ -16,4 +16,17 @@ cv::Mat ReadPicture(const std::filesystem::path& path);
 // not the query's camera's.
 cv::Mat ReadPicture(const Query& query);
 
+// Reads pictures and keeps the last one, so that whoever needs the picture at hand again does not
+// decode it again. For one thread.
+class PictureReader {
+ public:
+  // As ReadPicture. The pixels are shared: not to be written.
+  cv::Mat Read(const std::filesystem::path& path);
+  cv::Mat Read(const Query& query);
+
+ private:
+  std::filesystem::path path_;
+  cv::Mat stored_;
+};
+
 }  // namespace ridgeline

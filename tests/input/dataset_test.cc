@@ -79,5 +79,18 @@ TEST(Dataset, IdsMustDiffer) {
   EXPECT_EQ(MessageOf(text), "queries[1]: got the id \"000\" again, expected ids that differ");
 }
 
+TEST(Dataset, MistypedIdNamesTheNearest) {
+  const Dataset dataset = ReadDataset(Write(kGood));
+  EXPECT_EQ(FindQuery(dataset, "000", "--query"), 0u);
+  try {
+    FindQuery(dataset, "00", "--query");
+    ADD_FAILURE();
+  } catch (const InputError& e) {
+    const std::string text = e.what();
+    EXPECT_EQ(text.rfind("--query: got \"00\", expected a query of ", 0), 0u) << text;
+    EXPECT_NE(text.find("e.g. \"000\""), std::string::npos) << text;
+  }
+}
+
 }  // namespace
 }  // namespace ridgeline
