@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -65,8 +67,27 @@ void CompleteDataset(const ConvertArguments& arguments, bool is_dataset, Dataset
   for (Query& query : dataset.queries) query.image = folder / query.image;
 }
 
+// A camera for pictures without one, where all have theirs.
+void RefuseIdleCamera(const std::optional<CameraIntrinsics>& camera, const Dataset& dataset) {
+  if (!camera) return;
+  for (const Query& query : dataset.queries) {
+    const bool is_it = query.camera && query.camera->model == camera->model &&
+                       query.camera->params == camera->params;
+    if (is_it) return;
+  }
+  throw InputError("--camera", "", "pictures that all have their cameras", "no camera");
+}
+
 // Options of a dataset, where none is written; and a folder of pictures that is known already.
 void RefuseIdle(const ConvertArguments& arguments, const std::string& from, const std::string& to) {
+  const auto is_one_of = [](const std::string& name, std::initializer_list<const char*> names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  const bool takes_origin = is_one_of(from, {"colmap", "opk", "results", "visloc"}) ||
+                            to == "colmap" || arguments.inputs.size() > 1;
+  if (!arguments.origin.empty() && !takes_origin) {
+    throw InputError("--origin", "", "formats of whole coordinates", "no origin");
+  }
   if (from == "dataset" && !arguments.images.empty()) {
     throw InputError("--images", "", "a folder beside a dataset", "the dataset's own pictures");
   }
@@ -90,6 +111,7 @@ int RunConvert(const ConvertArguments& arguments, const Context& context) {
     Merge(ReadInput(arguments.inputs[i], "", options), dataset);
   }
   RefuseIdle(arguments, from, to);
+  RefuseIdleCamera(options.camera, dataset);
   if (to == "dataset") {
     CompleteDataset(arguments, from == "dataset", dataset);
   } else if (from == "dataset") {
