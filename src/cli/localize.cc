@@ -258,14 +258,15 @@ int RunLocalize(const LocalizeArguments& arguments, const Context& context) {
   if (!arguments.lines.empty()) {
     query.assumptions.push_back({"lines", "those of the file; none are detected", arguments.lines});
   }
+  stages.End();
+  for (const Assumption& assumption : query.assumptions) context.Note(TextOf(assumption));
 
   stages.Begin("reading the model");
   const World world = ReadWorld(dataset, std::max(ranges.east_m, ranges.north_m));
+  stages.End();
   if (world.dtm_of_model) {
     query.assumptions.push_back({"terrain", "where the model's buildings stand", "--model"});
   }
-  stages.End();
-  for (const Assumption& assumption : query.assumptions) context.Note(TextOf(assumption));
   for (const std::string& warning : world.warnings) context.Warn(warning);
   stages.Begin("building the scene");
   const Localizer localizer(world.model, world.dtm, options);
