@@ -254,7 +254,7 @@ int RunLocalize(const LocalizeArguments& arguments, const Context& context) {
   PoseSpaceOptions& ranges = options.search.space;
   WidenRanges(made, ranges);
   Query& query = dataset.queries.front();
-  query.assumptions.push_back({"search", RangesText(*query.prior, ranges), "search"});
+  query.assumptions.push_back({"search", RangesText(*query.prior, ranges), "options"});
   if (!arguments.lines.empty()) {
     query.assumptions.push_back({"lines", "those of the file; none are detected", arguments.lines});
   }
@@ -265,7 +265,8 @@ int RunLocalize(const LocalizeArguments& arguments, const Context& context) {
   const World world = ReadWorld(dataset, std::max(ranges.east_m, ranges.north_m));
   stages.End();
   if (world.dtm_of_model) {
-    query.assumptions.push_back({"terrain", "where the model's buildings stand", "--model"});
+    query.assumptions.push_back(
+        {"terrain", "where the model's buildings stand", dataset.model.front().string()});
   }
   for (const std::string& warning : world.warnings) context.Warn(warning);
   stages.Begin("building the scene");

@@ -160,7 +160,8 @@ void ReadFromDataset(const SequenceArguments& arguments,
   input.source = FramesOfQueries(dataset.queries);
   WorldRequest request = RequestFor(dataset, 0.0);
   request.whole_model = true;
-  request.needs_terrain = request.needs_terrain || !arguments.sensors.empty();
+  request.needs_terrain =
+      request.needs_terrain || (!arguments.sensors.empty() && sensors.height_source != "gnss");
   request.threads = threads;
   TakeModel(request, input);
   for (std::size_t i = 0; i < dataset.queries.size(); ++i) {
@@ -175,7 +176,10 @@ std::optional<CameraIntrinsics> CameraOfFrames(const SequenceArguments& argument
   throw InputError("--camera", "", "nothing", "a camera file (JSON)");
 }
 
-void ReadFromParts(const SequenceArguments& arguments, int threads, SequenceInput& input) {
+void ReadFromParts(const SequenceArguments& arguments,
+                   const SensorOptions& sensors,
+                   int threads,
+                   SequenceInput& input) {
   const std::optional<CameraIntrinsics> camera = CameraOfFrames(arguments);
   input.source = OpenFrames(arguments.frames);
   for (std::size_t i = 0; i < input.source->size(); ++i) {
@@ -189,7 +193,7 @@ void ReadFromParts(const SequenceArguments& arguments, int threads, SequenceInpu
   SetCrs(arguments.crs, named);
   request.crs = named.crs;
   request.whole_model = true;
-  request.needs_terrain = true;
+  request.needs_terrain = sensors.height_source != "gnss";
   request.threads = threads;
   TakeModel(request, input);
 }
@@ -212,7 +216,7 @@ std::unique_ptr<SequenceInput> ReadSequence(const SequenceArguments& arguments,
   CheckArguments(arguments);
   auto input = std::make_unique<SequenceInput>();
   if (arguments.dataset.empty()) {
-    ReadFromParts(arguments, threads, *input);
+    ReadFromParts(arguments, sensors, threads, *input);
   } else {
     ReadFromDataset(arguments, sensors, threads, *input);
   }
