@@ -62,7 +62,10 @@ Dataset ReadTask(const LocalizeArguments& arguments) {
   }
   Dataset dataset = ReadQuery(arguments.query);
   Query& query = dataset.queries.front();
-  if (!arguments.prior.empty()) query.prior = ReadPrior(arguments.prior);
+  if (!arguments.prior.empty()) {
+    query.prior = ReadPrior(arguments.prior);
+    dataset.file = arguments.prior;  // which is named where the prior leaves something open
+  }
   if (!arguments.lines.empty()) query.lines = arguments.lines;
   return dataset;
 }
