@@ -15,7 +15,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "eval/bench.h"
-#include "eval/world.h"
+#include "input/world.h"
 #include "localize/pose_scorer.h"
 #include "localize/pose_space.h"
 #include "score/evidence_score.h"
@@ -99,7 +99,8 @@ void AddPoses(const Grid& grid,
 // The box of the perturbation, densely, and decoys from farther away, in all headings.
 Box BoxOf(const Query& query, int seed, const Localizer& localizer, const Settings& settings) {
   const LocalizerOptions& options = settings.options;
-  const LocalizationInput input = InputOf(query, options);
+  PictureReader pictures;
+  const LocalizationInput input = InputOf(query, options, pictures);
   const PictureEvidence picture(UndistortImage(BgrOf(input.picture), input.camera),
                                 input.camera.Pinhole(),
                                 options.lines,

@@ -9,7 +9,7 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "eval/bench.h"
-#include "eval/world.h"
+#include "input/world.h"
 #include "localize/pose_scorer.h"
 #include "localize/pose_volume.h"
 #include "score/picture_evidence.h"
@@ -47,7 +47,8 @@ std::string CsvOf(const PoseVolume& volume) {
 
 void Record(const Query& query, const Localizer& localizer, const Settings& settings) {
   const Perturbation half = ParsePerturbation(settings.perturb);
-  LocalizationInput input = InputOf(query, localizer.options());
+  PictureReader pictures;
+  LocalizationInput input = InputOf(query, localizer.options(), pictures);
   input.prior = DrawPrior(*query.truth, half, settings.seed, query.id);
   PoseSpaceOptions ranges = localizer.options().search.space;
   ranges.east_m = half.east_m;

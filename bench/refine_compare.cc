@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "eval/bench.h"
-#include "eval/world.h"
+#include "input/world.h"
 #include "localize/fit_pose.h"
 #include "localize/pose_scorer.h"
 #include "localize/refine_pose.h"
@@ -49,7 +49,8 @@ class Comparison {
 
   void Run(const Query& query) {
     const LocalizerOptions& options = settings_.options;
-    LocalizationInput input = InputOf(query, options);
+    PictureReader pictures;
+    LocalizationInput input = InputOf(query, options, pictures);
     const PictureEvidence picture(UndistortImage(BgrOf(input.picture), input.camera),
                                   input.camera.Pinhole(),
                                   options.lines,

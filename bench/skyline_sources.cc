@@ -13,7 +13,7 @@
 
 #include "base/error.h"
 #include "city/read_city.h"
-#include "eval/dataset.h"
+#include "input/dataset.h"
 #include "localize/skyline_tracker.h"
 #include "score/sky_score.h"
 #include "synth/detail_mesh.h"

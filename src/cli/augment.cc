@@ -50,7 +50,7 @@ std::vector<double> ParsePlace(const std::string& text) {
 CityModel ReadBuilding(const AugmentArguments& arguments, const ViewInput& view) {
   CityOptions options;
   if (view.model.crs.horizontal_epsg != 0) {
-    options.model_crs = "EPSG:" + std::to_string(view.model.crs.horizontal_epsg);
+    options.project_to = "EPSG:" + std::to_string(view.model.crs.horizontal_epsg);
   }
   const CityModel model = ReadCity({arguments.building.begin(), arguments.building.end()}, options);
   const Eigen::Vector3d& origin = view.model.origin_in_world;
@@ -86,6 +86,7 @@ int RunAugment(const AugmentArguments& arguments, const Context& context) {
     throw InputError("--opacity", "", std::to_string(arguments.insert.opacity), "(0, 1]");
   }
   const std::unique_ptr<ViewInput> view = ReadView(arguments.view, context.threads);
+  for (const Assumption& assumption : view->assumptions) context.Note(TextOf(assumption));
   for (const std::string& warning : view->warnings) context.Warn(warning);
   if (view->photo.empty()) throw InputError("--image", "", "nothing", "the photo to draw into");
   const CityModel building = ReadBuilding(arguments, *view);

@@ -4,17 +4,19 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "cli/command.h"
+#include "cli/idle_options.h"
 #include "cli/out_folder.h"
 #include "cli/progress.h"
 #include "cli/run_outputs.h"
 #include "eval/bench.h"
 #include "eval/bench_files.h"
-#include "eval/picture_input.h"
-#include "eval/world.h"
+#include "input/picture_input.h"
+#include "input/world.h"
 
 namespace ridgeline {
 namespace {
@@ -124,12 +126,14 @@ void CompleteDataset(Dataset& dataset,
                      const Context& context) {
   PictureInputOptions picture_options;
   picture_options.camera_height_m = options.search.space.camera_height_m;
-  std::vector<std::string> notes;
-  const std::size_t completed = CompleteFromPictures(dataset, priors, picture_options, notes);
-  if (completed == 0) return;
-  context.Note(std::to_string(completed) +
-               " queries take their camera or prior from EXIF and XMP:");
-  for (const std::string& note : notes) context.Note("  " + note);
+  const std::size_t asked = CompleteFromPictures(dataset, priors, picture_options);
+  if (asked == 0) return;
+  context.Note(std::to_string(asked) + " queries take their camera or prior from EXIF and XMP:");
+  for (const Query& query : dataset.queries) {
+    for (const Assumption& assumption : query.assumptions) {
+      context.Note("  " + query.id + ": " + TextOf(assumption));
+    }
+  }
 }
 
 // With --out the report goes there, unless another place is named.
@@ -150,11 +154,33 @@ std::string CommandOf(const BenchArguments& arguments) {
          std::to_string(arguments.seeds);
 }
 
+// Poses that are there already take nothing of a search.
+void CheckScoreOnly(const BenchArguments& arguments) {
+  if (arguments.score_only.empty()) return;
+  const BenchArguments defaults;
+  const std::pair<bool, const char*> given[] = {
+      {!arguments.perturb.empty(), "--perturb"},
+      {arguments.seed != defaults.seed, "--seed"},
+      {arguments.seeds != defaults.seeds, "--seeds"},
+      {!arguments.config.config.empty(), "--config"},
+      {!arguments.config.set.empty(), "--set"},
+      {!arguments.outputs.report.empty(), "--report"},
+      {!arguments.outputs.map.empty(), "--map"},
+      {!arguments.outputs.overlays.empty(), "--overlays"}};
+  for (const auto& [is_given, option] : given) {
+    if (is_given) {
+      throw InputError(option, "", "an option of a search", "nothing of it beside --score-only");
+    }
+  }
+}
+
 int RunBenchCommand(const BenchArguments& arguments, const Context& context) {
   Dataset dataset = ReadDataset(arguments.dataset);
   LocalizerOptions options;
   ApplyConfig(arguments.config, [&](OptionVisitor& v) { options.Visit(v); });
   options.Validate();
+  RefuseIdleOptions(arguments.config.set, options);
+  CheckScoreOnly(arguments);
   BenchOptions bench;
   if (!arguments.perturb.empty()) bench.perturb = ParsePerturbation(arguments.perturb);
   bench.seeds.clear();

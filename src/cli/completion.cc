@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/atomic_file.h"
+#include "base/error.h"
 #include "cli/command.h"
 #include "cli/shell_text.h"
 
@@ -14,12 +15,15 @@ namespace {
 
 struct CompletionArguments {
   std::string what = "bash";
-  std::string out = ".";
+  std::string out;  // of man pages; "": here
 };
 
 int RunCompletion(const CompletionArguments& arguments,
                   const CLI::App& app,
                   const Context& context) {
+  if (arguments.what != "man" && !arguments.out.empty()) {
+    throw InputError("--out", "", "a folder for " + arguments.what, "man, or > FILE");
+  }
   if (arguments.what == "bash") {
     context.Print(BashCompletion(app));
     return kExitOk;
@@ -28,7 +32,7 @@ int RunCompletion(const CompletionArguments& arguments,
     context.Print(ZshCompletion(app));
     return kExitOk;
   }
-  const std::filesystem::path folder = arguments.out;
+  const std::filesystem::path folder = arguments.out.empty() ? "." : arguments.out;
   WriteFileAtomically(folder / "ridgeline.1", ProgramManual(app));
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
     WriteFileAtomically(folder / ("ridgeline-" + command->get_name() + ".1"),

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -64,6 +67,40 @@ void CompleteDataset(const ConvertArguments& arguments, bool is_dataset, Dataset
   for (Query& query : dataset.queries) query.image = folder / query.image;
 }
 
+// A camera for pictures without one, where all have theirs.
+void RefuseIdleCamera(const std::optional<CameraIntrinsics>& camera, const Dataset& dataset) {
+  if (!camera) return;
+  for (const Query& query : dataset.queries) {
+    const bool is_it = query.camera && query.camera->model == camera->model &&
+                       query.camera->params == camera->params;
+    if (is_it) return;
+  }
+  throw InputError("--camera", "", "pictures that all have their cameras", "no camera");
+}
+
+// Options of a dataset, where none is written; and a folder of pictures that is known already.
+void RefuseIdle(const ConvertArguments& arguments, const std::string& from, const std::string& to) {
+  const auto is_one_of = [](const std::string& name, std::initializer_list<const char*> names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  const bool takes_origin = is_one_of(from, {"colmap", "opk", "results", "visloc"}) ||
+                            to == "colmap" || arguments.inputs.size() > 1;
+  if (!arguments.origin.empty() && !takes_origin) {
+    throw InputError("--origin", "", "formats of whole coordinates", "no origin");
+  }
+  if (from == "dataset" && !arguments.images.empty()) {
+    throw InputError("--images", "", "a folder beside a dataset", "the dataset's own pictures");
+  }
+  if (to == "dataset") return;
+  const std::pair<bool, const char*> given[] = {{!arguments.name.empty(), "--name"},
+                                                {!arguments.model.empty(), "--model"},
+                                                {!arguments.dtm.empty(), "--dtm"},
+                                                {!arguments.images.empty(), "--images"}};
+  for (const auto& [is_given, option] : given) {
+    if (is_given) throw InputError(option, "", "an output of format " + to, "a dataset (.json)");
+  }
+}
+
 int RunConvert(const ConvertArguments& arguments, const Context& context) {
   const ConvertOptions options = OptionsOf(arguments);
   const std::string to = arguments.to.empty() ? FormatOfOutput(arguments.out) : arguments.to;
@@ -73,6 +110,8 @@ int RunConvert(const ConvertArguments& arguments, const Context& context) {
   for (std::size_t i = 1; i < arguments.inputs.size(); ++i) {
     Merge(ReadInput(arguments.inputs[i], "", options), dataset);
   }
+  RefuseIdle(arguments, from, to);
+  RefuseIdleCamera(options.camera, dataset);
   if (to == "dataset") {
     CompleteDataset(arguments, from == "dataset", dataset);
   } else if (from == "dataset") {

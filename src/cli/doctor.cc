@@ -19,7 +19,7 @@
 #include "cli/command.h"
 #include "cli/version.h"
 #include "eval/bench.h"
-#include "eval/world.h"
+#include "input/world.h"
 #include "report/html_report.h"
 #include "synth/town_dataset.h"
 

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 #include <system_error>
 #include <utility>
 
 #include "base/error.h"
+#include "camera/picture_camera.h"
+#include "input/read_picture.h"
+#include "localize/localizer.h"
 
 namespace ridgeline {
 namespace {
@@ -28,20 +30,21 @@ bool IsPicture(const fs::path& path) {
 
 class PictureFiles final : public FrameSource {
  public:
-  PictureFiles(std::vector<std::string> ids, std::vector<fs::path> files)
-      : ids_(std::move(ids)), files_(std::move(files)) {}
+  explicit PictureFiles(std::vector<Query> queries) : queries_(std::move(queries)) {}
 
-  std::size_t size() const override { return files_.size(); }
-  std::string id(std::size_t index) const override { return ids_[index]; }
+  std::size_t size() const override { return queries_.size(); }
+  std::string id(std::size_t index) const override { return queries_[index].id; }
   cv::Mat Read(std::size_t index) override {
-    std::error_code error;
-    if (!fs::is_regular_file(files_[index], error)) return {};
-    return cv::imread(files_[index].string(), cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+    const Query& query = queries_[index];
+    try {
+      return BgrOf(TurnedUpright(ReadPicture(query.image), query.orientation));
+    } catch (const InputError&) {
+      return {};
+    }
   }
 
  private:
-  std::vector<std::string> ids_;
-  std::vector<fs::path> files_;
+  std::vector<Query> queries_;
 };
 
 class Video final : public FrameSource {
@@ -94,14 +97,16 @@ std::unique_ptr<FrameSource> OpenFrames(const fs::path& path) {
   } else {
     return std::make_unique<Video>(path);
   }
-  std::vector<std::string> ids;
-  for (const fs::path& file : files) ids.push_back(file.stem().string());
-  return std::make_unique<PictureFiles>(std::move(ids), std::move(files));
+  std::vector<Query> queries(files.size());
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    queries[i].id = files[i].stem().string();
+    queries[i].image = files[i];
+  }
+  return FramesOfQueries(queries);
 }
 
-std::unique_ptr<FrameSource> FramesOfFiles(const std::vector<std::string>& ids,
-                                           const std::vector<fs::path>& files) {
-  return std::make_unique<PictureFiles>(ids, files);
+std::unique_ptr<FrameSource> FramesOfQueries(const std::vector<Query>& queries) {
+  return std::make_unique<PictureFiles>(queries);
 }
 
 }  // namespace ridgeline

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "input/dataset.h"
+
 namespace ridgeline {
 
 // The pictures of a sequence, in order.
@@ -27,8 +29,7 @@ class FrameSource {
 // nothing to read.
 std::unique_ptr<FrameSource> OpenFrames(const std::filesystem::path& path);
 
-// The files given, whether they exist or not.
-std::unique_ptr<FrameSource> FramesOfFiles(const std::vector<std::string>& ids,
-                                           const std::vector<std::filesystem::path>& files);
+// The pictures of a dataset's queries, whether they exist or not.
+std::unique_ptr<FrameSource> FramesOfQueries(const std::vector<Query>& queries);
 
 }  // namespace ridgeline

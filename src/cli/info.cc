@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/decimals.h"
+#include "base/error.h"
 #include "city/city_info.h"
 #include "city/crs.h"
 #include "city/read_source.h"
@@ -188,6 +189,18 @@ void PrintRaster(const RasterInfo& info, const Context& context) {
   }
 }
 
+// Options that change how models are read, where there are none.
+void RefuseModelOptions(const CityOptions& city) {
+  const CityOptions defaults;
+  const auto refuse = [](const char* option) {
+    throw InputError(option, "", "no model among the files", "a model, or none of its options");
+  };
+  if (!city.model_crs.empty()) refuse("--model-crs");
+  if (!city.project_to.empty()) refuse("--project-to");
+  if (city.height_offset_m != defaults.height_offset_m) refuse("--height-offset");
+  if (city.lod != defaults.lod) refuse("--lod");
+}
+
 int RunInfo(const InfoArguments& arguments, const Context& context) {
   std::vector<fs::path> models;
   std::vector<fs::path> rasters;
@@ -197,6 +210,7 @@ int RunInfo(const InfoArguments& arguments, const Context& context) {
                           fs::path(file).extension() == ".gpkg" || LooksLikeModelFile(file);
     (is_model ? models : rasters).emplace_back(file);
   }
+  if (models.empty()) RefuseModelOptions(arguments.city);
   Json results = Json::array();
   if (!models.empty()) {
     CityOptions options = arguments.city;

@@ -9,15 +9,17 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "city/crs.h"
-#include "city/read_city.h"
 #include "cli/command.h"
+#include "cli/idle_options.h"
 #include "cli/out_folder.h"
+#include "cli/progress.h"
+#include "cli/query_input.h"
 #include "cli/version.h"
 #include "eval/bench.h"
-#include "eval/picture_input.h"
 #include "eval/pose_json.h"
-#include "eval/read_picture.h"
-#include "eval/world.h"
+#include "input/picture_input.h"
+#include "input/read_picture.h"
+#include "input/world.h"
 #include "report/bench_report.h"
 #include "report/html_report.h"
 #include "report/map_files.h"
@@ -28,13 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct LocalizeArguments {
-  std::string image;
-  std::string dataset;
-  std::string query;
-  std::vector<std::string> model;
-  std::string dtm;
-  std::string crs;
-  std::string camera;
+  QueryArguments query;
   std::string prior;
   std::string lines;
   std::string out;
@@ -44,87 +40,64 @@ struct LocalizeArguments {
   ConfigArguments config;
 };
 
-// What is to be localized, and in which model.
-struct Task {
-  Query query;
-  Dataset dataset;    // model, DTM and CRS
-  PictureInput made;  // what the picture itself had to tell
-};
-
-Task TaskOfDataset(const LocalizeArguments& arguments) {
-  Task task;
-  task.dataset = ReadDataset(arguments.dataset);
-  std::vector<std::string> ids;
-  for (const Query& query : task.dataset.queries) {
-    ids.push_back(query.id);
-    if (query.id == arguments.query) task.query = query;
+// Takes the configuration and, for --lines, the detector that it implies.
+void ReadOptions(const LocalizeArguments& arguments, LocalizerOptions& options) {
+  const VisitOptions visit = [&](OptionVisitor& v) { options.Visit(v); };
+  ApplyConfig({arguments.config.config, {}}, visit);
+  if (!arguments.lines.empty()) options.lines.detector = "file";
+  ApplyConfig({"", arguments.config.set}, visit);
+  if (!arguments.lines.empty() && options.lines.detector != "file") {
+    throw InputError("--lines",
+                     "",
+                     "lines.detector=" + options.lines.detector + " beside it",
+                     "segments of a file or a detector's, not both");
   }
-  if (task.query.id.empty()) {
-    throw InputError(
-        "--query",
-        "",
-        "\"" + arguments.query + "\"",
-        "an id of " + arguments.dataset + ", e.g. " + NearestName(arguments.query, ids));
-  }
-  task.dataset.queries = {task.query};
-  return task;
+  options.Validate();
+  RefuseIdleOptions(arguments.config.set, options);
 }
 
-Task TaskOfFiles(const LocalizeArguments& arguments) {
-  const auto require = [](const std::string& value, const char* option, const char* what) {
-    if (value.empty()) throw InputError(option, "", "nothing", what);
-  };
-  require(arguments.image, "IMAGE", "a picture, or --dataset with --query");
-  require(arguments.model.empty() ? "" : arguments.model.front(), "--model", "a city model");
-  Task task;
-  task.query.id = fs::path(arguments.image).stem().string();
-  task.query.image = arguments.image;
-  if (!arguments.camera.empty()) task.query.camera = ReadCamera(arguments.camera);
-  if (!arguments.prior.empty()) task.query.prior = ReadPrior(arguments.prior);
-  if (!arguments.lines.empty()) task.query.lines = arguments.lines;
-  task.dataset.file = arguments.image;
-  task.dataset.name = task.query.id;
-  task.dataset.crs = arguments.crs;
-  task.dataset.model.assign(arguments.model.begin(), arguments.model.end());
-  if (!arguments.dtm.empty()) task.dataset.dtm = arguments.dtm;
-  task.dataset.queries = {task.query};
-  return task;
+Dataset ReadTask(const LocalizeArguments& arguments) {
+  if (arguments.query.image.empty() && arguments.query.dataset.empty()) {
+    throw InputError("IMAGE", "", "nothing", "a picture, or --dataset with --query");
+  }
+  Dataset dataset = ReadQuery(arguments.query);
+  Query& query = dataset.queries.front();
+  if (!arguments.prior.empty()) {
+    query.prior = ReadPrior(arguments.prior);
+    dataset.file = arguments.prior;  // which is named where the prior leaves something open
+  }
+  if (!arguments.lines.empty()) query.lines = arguments.lines;
+  return dataset;
 }
 
 // Camera and prior from the picture where nothing else gives them.
-void TakeFromPicture(const LocalizeArguments& arguments,
-                     const LocalizerOptions& options,
-                     Task& task) {
-  Query& query = task.query;
-  if (query.camera && query.prior) return;
-  Crs crs;
-  if (!query.prior) {
-    CityOptions city;
-    city.project_to = task.dataset.crs;
-    crs = ReadCityCrs(task.dataset.model, city);
-  }
+PictureInput TakeFromPicture(const LocalizeArguments& arguments,
+                             const LocalizerOptions& options,
+                             PictureReader& pictures,
+                             Dataset& dataset) {
   PictureInputOptions picture_options;
   picture_options.declination_deg = arguments.declination_deg;
   picture_options.camera_height_m = options.search.space.camera_height_m;
-  task.made = ReadPictureInput(query, crs, task.dataset.dtm, picture_options);
-  if (task.made.camera) {
-    query.camera = task.made.camera;
-    query.orientation = task.made.orientation;
-  }
-  if (task.made.prior) query.prior = task.made.prior;
+  Query& query = dataset.queries.front();
+  std::optional<Crs> crs;
+  PictureInput made = CompleteFromPicture(dataset, true, picture_options, pictures, crs, query);
   if (!query.prior) {
     throw InputError(query.image.string(),
                      "position",
                      "none in its EXIF or XMP",
                      "--prior FILE with {\"position\": [east, north], \"heading_deg\": ...}");
   }
-  task.dataset.queries = {query};
+  if (arguments.declination_deg && !made.magnetic) {
+    throw InputError("--declination",
+                     "",
+                     "a heading that is not from magnetic north",
+                     "no declination (it turns a picture's own magnetic heading)");
+  }
+  return made;
 }
 
 // A prior of the picture's own is searched as far as it may be off, unless the user says otherwise.
-void WidenRanges(const PictureInput& made,
-                 PoseSpaceOptions& ranges,
-                 std::vector<std::string>& notes) {
+void WidenRanges(const PictureInput& made, PoseSpaceOptions& ranges) {
   if (!made.prior) return;
   const PoseSpaceOptions defaults;
   const auto widen = [](double& range, double default_range, double wanted) {
@@ -135,52 +108,57 @@ void WidenRanges(const PictureInput& made,
   widen(ranges.height_m, defaults.height_m, made.height_m);
   widen(ranges.pitch_deg, defaults.pitch_deg, made.pitch_deg);
   widen(ranges.roll_deg, defaults.roll_deg, made.roll_deg);
+}
+
+std::string RangesText(const PosePrior& prior, const PoseSpaceOptions& ranges) {
   char text[200];
-  std::snprintf(
-      text,
-      sizeof(text),
-      "search: within %.0f m east and north, %.0f m up and down, %.0f deg heading, %.0f pitch, "
-      "%.0f roll (--set search.pitch_deg=... and the like)",
-      std::max(ranges.east_m, ranges.north_m),
-      ranges.height_m,
-      made.prior->heading_deg ? ranges.heading_deg : 180.0,
-      ranges.pitch_deg,
-      ranges.roll_deg);
-  notes.push_back(text);
+  std::snprintf(text,
+                sizeof(text),
+                "within %.0f m east and north, %.0f m up and down, %.0f deg heading, %.0f pitch, "
+                "%.0f roll (--set search.pitch_deg=... and the like)",
+                std::max(ranges.east_m, ranges.north_m),
+                ranges.height_m,
+                prior.heading_deg ? ranges.heading_deg : 180.0,
+                ranges.pitch_deg,
+                ranges.roll_deg);
+  return text;
 }
 
 // Whether there is a place at all for the camera: said before the search, since the user can mend
 // it.
-void CheckPlace(const Task& task, const Localizer& localizer, const PoseSpaceOptions& ranges) {
-  const PosePrior& prior = *task.query.prior;
+void CheckPlace(const Dataset& dataset,
+                const Localizer& localizer,
+                const PoseSpaceOptions& ranges) {
+  const PosePrior& prior = *dataset.queries.front().prior;
   const Eigen::Vector2d local =
       prior.position_in_world - localizer.scene().model().origin_in_world.head<2>();
   if (!local.allFinite() || !ranges.free_space) return;
   char place[80];
   std::snprintf(
       place, sizeof(place), "%.1f, %.1f", prior.position_in_world.x(), prior.position_in_world.y());
-  constexpr int kSteps = 10;  // each way from the middle
-  bool on_terrain = localizer.dtm() == nullptr;
+  const HeightGrid* const dtm = localizer.dtm();
+  const auto on_terrain = [&](const Eigen::Vector2d& xy) {
+    return dtm == nullptr || dtm->HeightAt(xy).has_value();
+  };
+  bool terrain_near = false;
   std::optional<PoseSpace> space;
+  if (prior.height_in_world || on_terrain(local)) {
+    space.emplace(prior, ranges, localizer.scene(), dtm, localizer.footprints());
+  }
+  constexpr int kSteps = 10;  // each way from the middle
   for (int i = -kSteps; i <= kSteps; ++i) {
     for (int j = -kSteps; j <= kSteps; ++j) {
       const double east = ranges.east_m * i / kSteps;
       const double north = ranges.north_m * j / kSteps;
-      if (localizer.dtm() != nullptr &&
-          !localizer.dtm()->HeightAt(local + Eigen::Vector2d(east, north))) {
-        continue;
-      }
-      on_terrain = true;
-      if (!space && (prior.height_in_world || localizer.dtm()->HeightAt(local))) {
-        space.emplace(prior, ranges, localizer.scene(), localizer.dtm(), localizer.footprints());
-      }
+      if (!on_terrain(local + Eigen::Vector2d(east, north))) continue;
+      terrain_near = true;
       for (const double height : {0.0, ranges.height_m, -ranges.height_m}) {
         if (space && space->PositionAt(east, north, height)) return;
       }
     }
   }
-  if (!on_terrain || !space) {
-    throw InputError(task.dataset.dtm ? task.dataset.dtm->string() : "prior",
+  if (!terrain_near || !space) {
+    throw InputError(dataset.dtm ? dataset.dtm->string() : "prior",
                      "position",
                      std::string("no terrain at the prior, ") + place,
                      "a terrain model that covers the prior");
@@ -192,11 +170,11 @@ void CheckPlace(const Task& task, const Localizer& localizer, const PoseSpaceOpt
                    "a place where a camera can be (or larger search.east_m, search.north_m)");
 }
 
-void PrintResult(const BenchRun& run, const Task& task, const Context& context) {
+void PrintResult(const BenchRun& run, const Context& context) {
   const Localization& found = run.localization;
   char line[200];
   if (!found.pose) {
-    context.Print(task.query.id + ": abstained: " + found.reason);
+    context.Print(run.record.query + ": abstained: " + found.reason);
     return;
   }
   const Eigen::Vector3d& c = found.pose->center_in_world;
@@ -230,61 +208,97 @@ void PrintResult(const BenchRun& run, const Task& task, const Context& context) 
   context.Print(line);
 }
 
-int RunLocalize(const LocalizeArguments& arguments, const Context& context) {
-  Task task = arguments.dataset.empty() ? TaskOfFiles(arguments) : TaskOfDataset(arguments);
-  LocalizerOptions options;
-  const VisitOptions visit = [&](OptionVisitor& v) { options.Visit(v); };
-  ApplyConfig(arguments.config, visit);
-  options.Validate();
-  const OutFolder out_folder("--out", arguments.out);
-  CheckFileToWrite("--report", arguments.report);
-  TakeFromPicture(arguments, options, task);
-  WidenRanges(task.made, options.search.space, task.made.notes);
-  for (const std::string& note : task.made.notes) context.Note(note);
-  const PoseSpaceOptions& ranges = options.search.space;
-  const World world = ReadWorld(task.dataset, std::max(ranges.east_m, ranges.north_m));
-  for (const std::string& warning : world.warnings) context.Warn(warning);
-  const Localizer localizer(world.model, world.dtm, options);
-  CheckPlace(task, localizer, ranges);
-
-  BenchOptions bench;
-  bench.seeds = {static_cast<int>(arguments.seed)};
-  bench.threads = context.threads;
-  const std::vector<BenchRun> runs = RunBench(task.dataset, localizer, bench, {});
+// What the search found, in files.
+void WriteResults(const LocalizeArguments& arguments,
+                  const Dataset& dataset,
+                  const Localizer& localizer,
+                  const std::vector<BenchRun>& runs,
+                  const std::string& pose_json,
+                  const std::string& options_json,
+                  PictureReader& pictures) {
+  if (arguments.out.empty() && arguments.report.empty()) return;
+  const Query& query = dataset.queries.front();
   const BenchRun& run = runs.front();
-  for (const std::string& warning : run.localization.warnings) context.Warn(warning);
-  const std::string pose_json = PoseJson(task.query.image.string(), run.localization, world.model);
-  const std::string options_json = OptionsToJson(visit);
-
-  const ReportOrigin origin{"Pose of " + task.query.image.filename().string(),
+  const Crs& crs = localizer.scene().model().crs;
+  const ReportOrigin origin{"Pose of " + query.image.filename().string(),
                             "ridgeline localize",
                             VersionText(),
-                            CrsName(world.model.crs),
+                            CrsName(crs),
                             options_json};
+  const ReportData data = BenchReport(
+      origin, dataset.queries, localizer, localizer.options().search.space, runs, pictures);
   if (!arguments.out.empty()) {
     const fs::path out = arguments.out;
     WriteFileAtomically(out / "pose.json", pose_json);
-    WriteFileAtomically(out / "report.json",
-                        RunJson(run.localization, arguments.seed, VersionText(), options_json));
-    const cv::Mat photo = UndistortImage(BgrOf(ReadPicture(task.query)), *task.query.camera);
-    WriteOverlay(photo,
-                 ResultOverlay(localizer, task.query.camera->Pinhole(), run),
-                 {},
-                 out / "overlay.png");
-    const ReportData data = BenchReport(origin, task.dataset.queries, localizer, ranges, runs);
-    WriteMap(data.runs, world.model.crs.horizontal_epsg, out / "map.geojson");
+    WriteFileAtomically(
+        out / "report.json",
+        RunJson(run.localization, arguments.seed, VersionText(), options_json, query.assumptions));
+    const cv::Mat photo = UndistortImage(BgrOf(pictures.Read(query)), *query.camera);
+    WriteOverlay(
+        photo, ResultOverlay(localizer, query.camera->Pinhole(), run), {}, out / "overlay.png");
+    WriteMap(data.runs, crs.horizontal_epsg, out / "map.geojson");
     if (!data.runs.empty() && data.runs.front().map) {
-      WriteEnergyMap(*data.runs.front().map, world.model.crs.horizontal_epsg, out / "energy.tif");
+      WriteEnergyMap(*data.runs.front().map, crs.horizontal_epsg, out / "energy.tif");
     }
   }
-  if (!arguments.report.empty()) {
-    WriteHtmlReport(BenchReport(origin, task.dataset.queries, localizer, ranges, runs),
-                    arguments.report);
+  if (!arguments.report.empty()) WriteHtmlReport(data, arguments.report);
+}
+
+int RunLocalize(const LocalizeArguments& arguments, const Context& context) {
+  Stages stages(context);
+  stages.Begin("reading the picture");
+  Dataset dataset = ReadTask(arguments);
+  LocalizerOptions options;
+  ReadOptions(arguments, options);
+  const OutFolder out_folder("--out", arguments.out);
+  CheckFileToWrite("--report", arguments.report);
+  PictureReader pictures;
+  const PictureInput made = TakeFromPicture(arguments, options, pictures, dataset);
+  PoseSpaceOptions& ranges = options.search.space;
+  WidenRanges(made, ranges);
+  Query& query = dataset.queries.front();
+  query.assumptions.push_back({"search", RangesText(*query.prior, ranges), "options"});
+  if (!arguments.lines.empty()) {
+    query.assumptions.push_back({"lines", "those of the file; none are detected", arguments.lines});
   }
+  stages.End();
+  for (const Assumption& assumption : query.assumptions) context.Note(TextOf(assumption));
+
+  stages.Begin("reading the model");
+  const World world = ReadWorld(dataset, std::max(ranges.east_m, ranges.north_m));
+  stages.End();
+  if (world.dtm_of_model) {
+    query.assumptions.push_back(
+        {"terrain", "where the model's buildings stand", dataset.model.front().string()});
+  }
+  for (const std::string& warning : world.warnings) context.Warn(warning);
+  stages.Begin("building the scene");
+  const Localizer localizer(world.model, world.dtm, options);
+  CheckPlace(dataset, localizer, ranges);
+
+  stages.Begin("searching");
+  BenchOptions bench;
+  bench.seeds = {static_cast<int>(arguments.seed)};
+  bench.threads = context.threads;
+  bench.pictures = &pictures;
+  const std::vector<BenchRun> runs = RunBench(dataset, localizer, bench, {});
+  const BenchRun& run = runs.front();
+  const std::string pose_json =
+      PoseJson(query.image.string(), run.localization, world.model, query.assumptions);
+  stages.Begin("writing the results");
+  WriteResults(arguments,
+               dataset,
+               localizer,
+               runs,
+               pose_json,
+               OptionsToJson([&](OptionVisitor& v) { options.Visit(v); }),
+               pictures);
+  stages.End();
+  for (const std::string& warning : run.localization.warnings) context.Warn(warning);
   if (context.json) {
     context.Print(pose_json);
   } else {
-    PrintResult(run, task, context);
+    PrintResult(run, context);
     if (!arguments.out.empty()) {
       context.Print("overlay     " + (fs::path(arguments.out) / "overlay.png").string());
     }
@@ -307,16 +321,8 @@ void AddLocalizeCommand(CLI::App& app, Context& context) {
        "    --prior prior.json --out result --report result.html\n"
        "ridgeline localize --dataset town/dataset.json --query street_000 --out result"},
       [arguments](Context& c) { return RunLocalize(*arguments, c); });
-  command->add_option("image", arguments->image, "Picture");
-  command->add_option(
-      "--dataset", arguments->dataset, "Take picture, model and prior from a dataset");
-  command->add_option("--query", arguments->query, "Id of the query in --dataset");
-  command->add_option("--model", arguments->model, "City model: files or folders");
-  command->add_option("--dtm", arguments->dtm, "Terrain model (any GDAL raster)");
-  command->add_option("--crs", arguments->crs, "Projected system of the prior, e.g. EPSG:25832");
-  command->add_option("--camera",
-                      arguments->camera,
-                      "Camera file (COLMAP model and parameters); else from the picture's EXIF");
+  command->add_option("image", arguments->query.image, "Picture");
+  AddQueryOptions(*command, arguments->query);
   command->add_option(
       "--prior",
       arguments->prior,
@@ -326,7 +332,7 @@ void AddLocalizeCommand(CLI::App& app, Context& context) {
       arguments->declination_deg,
       "Magnetic declination [deg], east positive; else by the World Magnetic Model");
   command->add_option(
-      "--lines", arguments->lines, "Segments of another detector, for lines.detector=file");
+      "--lines", arguments->lines, "Segments of another detector, in place of lines.detector");
   command->add_option("--out",
                       arguments->out,
                       "Folder for pose.json, report.json, overlay.png, map.geojson, energy.tif");

@@ -39,6 +39,23 @@ std::string UnknownCommand(const CLI::App& app, const std::string& word) {
   return "no command \"" + word + "\"; did you mean \"" + NearestName(word, names) + "\"?";
 }
 
+// The nearest option of the chosen command and of the program to the first word that is none.
+std::string UnknownOption(const CLI::App& app, const CLI::App& command) {
+  for (const std::string& word :
+       app.remaining(true)) {  // unknown words fall through to the program
+    if (word.size() < 2 || word[0] != '-') continue;
+    const std::string given = word.substr(0, word.find('='));
+    std::vector<std::string> names;
+    for (const CLI::App* of : {&command, &app}) {
+      for (const CLI::Option* option : of->get_options()) {
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+      }
+    }
+    return "no option \"" + given + "\"; did you mean \"" + NearestName(given, names) + "\"?";
+  }
+  return "";
+}
+
 int Parse(CLI::App& app, int argc, char** argv, const Context& context) {
   try {
     app.parse(argc, argv);
@@ -50,7 +67,15 @@ int Parse(CLI::App& app, int argc, char** argv, const Context& context) {
     const auto chosen = app.get_subcommands();
     const std::string name = chosen.empty() ? "ridgeline" : "ridgeline " + chosen[0]->get_name();
     std::string message = e.what();
-    if (chosen.empty() && argc > 1 && argv[1][0] != '-') message = UnknownCommand(app, argv[1]);
+    if (argc == 1) {
+      std::cerr << app.help();
+      return kExitBadInput;
+    }
+    if (chosen.empty() && argv[1][0] != '-') message = UnknownCommand(app, argv[1]);
+    if (dynamic_cast<const CLI::ExtrasError*>(&e) != nullptr) {
+      const std::string unknown = UnknownOption(app, chosen.empty() ? app : *chosen[0]);
+      if (!unknown.empty()) message = unknown;
+    }
     return Fail(context, message + "\nSee " + name + " --help", kExitBadInput);
   }
 }

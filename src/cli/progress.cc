@@ -97,4 +97,12 @@ void Progress::Show(bool last) {
   }
 }
 
+void Stages::Begin(const std::string& stage) {
+  if (shown_) std::cerr << "\r\033[K" << stage << " ..." << std::flush;
+}
+
+void Stages::End() {
+  if (shown_) std::cerr << "\r\033[K" << std::flush;
+}
+
 }  // namespace ridgeline

@@ -52,4 +52,21 @@ std::string ProgressText(const std::string& title,
 // "9 s", "2 min 05 s", "3 h 10 min".
 std::string DurationText(double seconds);
 
+// What a short piece of work is at, on a terminal: one line on stderr that goes away again. Silent
+// elsewhere and with --quiet.
+class Stages {
+ public:
+  explicit Stages(const Context& context) : shown_(context.terminal_err && !context.quiet) {}
+  ~Stages() { End(); }
+  Stages(const Stages&) = delete;
+  Stages& operator=(const Stages&) = delete;
+
+  void Begin(const std::string& stage);
+  // Clears the line, for other text to come.
+  void End();
+
+ private:
+  bool shown_;
+};
+
 }  // namespace ridgeline

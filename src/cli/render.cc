@@ -30,7 +30,14 @@ int RunRender(const RenderArguments& arguments, const Context& context) {
       arguments.ids.empty()) {
     throw InputError("render", "", "nothing to write", "--out, --shaded, --depth or --ids");
   }
+  if (arguments.out.empty() && arguments.no_legend) {
+    throw InputError("--no-legend", "", "no edges to explain", "--out FILE");
+  }
+  if (arguments.out.empty() && !arguments.view.query.image.empty()) {
+    throw InputError("--image", "", "no edges to draw over it", "--out FILE");
+  }
   const std::unique_ptr<ViewInput> view = ReadView(arguments.view, context.threads);
+  for (const Assumption& assumption : view->assumptions) context.Note(TextOf(assumption));
   for (const std::string& warning : view->warnings) context.Warn(warning);
 
   std::optional<ViewBuffers> buffers;

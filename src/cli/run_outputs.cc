@@ -8,7 +8,7 @@
 #include "cli/file_name.h"
 #include "cli/out_folder.h"
 #include "cli/version.h"
-#include "eval/read_picture.h"
+#include "input/read_picture.h"
 #include "report/bench_report.h"
 #include "report/html_report.h"
 #include "report/map_files.h"
@@ -25,8 +25,9 @@ std::string OverlayName(const RunRecord& record, bool seeds) {
 void WriteOverlayOf(const BenchRun& run,
                     const Query& query,
                     const Localizer& localizer,
+                    PictureReader& pictures,
                     const fs::path& path) {
-  const cv::Mat photo = UndistortImage(BgrOf(ReadPicture(query)), *query.camera);
+  const cv::Mat photo = UndistortImage(BgrOf(pictures.Read(query)), *query.camera);
   WriteOverlay(
       photo, ResultOverlay(localizer, query.camera->Pinhole(), run), OverlayDrawOptions{}, path);
 }
@@ -73,6 +74,7 @@ void WriteRunOutputs(const RunOutputs& outputs,
                      std::span<const BenchRun> runs,
                      const Context& context) {
   const int epsg = localizer.scene().model().crs.horizontal_epsg;
+  PictureReader pictures;
   if (!outputs.report.empty() || !outputs.map.empty()) {
     const std::string crs = epsg == 0 ? "" : "EPSG:" + std::to_string(epsg);
     const ReportData data =
@@ -80,7 +82,8 @@ void WriteRunOutputs(const RunOutputs& outputs,
                     queries,
                     localizer,
                     ranges,
-                    runs);
+                    runs,
+                    pictures);
     if (!outputs.map.empty()) {
       WriteMap(data.runs, epsg, outputs.map);
       context.Note("map: " + outputs.map);
@@ -96,7 +99,7 @@ void WriteRunOutputs(const RunOutputs& outputs,
     for (const BenchRun& run : runs) {
       const fs::path file = many ? fs::path(outputs.overlays) / OverlayName(run.record, seeds)
                                  : fs::path(outputs.overlays);
-      WriteOverlayOf(run, queries[run.query], localizer, file);
+      WriteOverlayOf(run, queries[run.query], localizer, pictures, file);
     }
     context.Note((many ? "overlays: " : "overlay: ") + outputs.overlays);
   }

@@ -4,38 +4,26 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <system_error>
+#include <utility>
 
 #include "base/error.h"
-#include "city/read_city.h"
-#include "eval/dataset.h"
+#include "cli/query_input.h"
+#include "input/dataset.h"
+#include "input/picture_input.h"
+#include "input/prior_pose.h"
+#include "input/world.h"
 
 namespace ridgeline {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Margin around the model in which the terrain is read [m].
-constexpr double kTerrainMarginM = 200.0;
-
-void ReadModel(const std::vector<fs::path>& files,
-               const std::string& crs,
-               const std::optional<fs::path>& dtm,
-               int threads,
-               SequenceInput& input) {
-  CityOptions city;
-  city.model_crs = crs;
-  city.threads = threads;
-  input.model = ReadCity(files, city);
-  input.warnings = input.model->warnings;
-  if (dtm) {
-    Eigen::Vector2d lower = input.model->vertices.front().head<2>();
-    Eigen::Vector2d upper = lower;
-    for (const Eigen::Vector3d& vertex : input.model->vertices) {
-      lower = lower.cwiseMin(vertex.head<2>());
-      upper = upper.cwiseMax(vertex.head<2>());
-    }
-    input.dtm = ReadDtm(*dtm, *input.model, lower, upper, kTerrainMarginM, input.warnings);
-  }
+void TakeModel(const WorldRequest& request, SequenceInput& input) {
+  World world = ReadWorld(request);
+  input.model = std::move(world.model);
+  input.dtm = std::move(world.dtm);
+  input.warnings.insert(input.warnings.end(), world.warnings.begin(), world.warnings.end());
   input.scene =
       std::make_unique<Scene>(*input.model, input.dtm ? &*input.dtm : nullptr, ProjectionOptions{});
 }
@@ -56,19 +44,13 @@ void StartFromPrior(const std::optional<PosePrior>& prior,
     frame.missing = "no prior";
     return;
   }
-  std::optional<double> height = prior->height_in_world;
-  if (!height) {
-    height = TerrainHeight(input, prior->position_in_world);
-    if (height) *height += camera_height_m;
-  }
-  if (!height || !prior->heading_deg) {
-    frame.missing = height ? "no heading" : "no height";
+  if (!prior->heading_deg) {
+    frame.missing = "no heading";
     return;
   }
-  frame.start =
-      Pose{CamFromWorld(ViewAngles{
-               *prior->heading_deg, prior->pitch_deg.value_or(0.0), prior->roll_deg.value_or(0.0)}),
-           {prior->position_in_world.x(), prior->position_in_world.y(), *height}};
+  frame.start = PoseOfPrior(
+      *prior, input.dtm ? &*input.dtm : nullptr, input.model->origin_in_world, camera_height_m);
+  if (!frame.start) frame.missing = "no height";
 }
 
 // The reading of every frame, as indices; -1: none. By id; frames of a video by time, or by number
@@ -121,43 +103,99 @@ void StartFromSensors(const std::string& file, const SensorOptions& options, Seq
   }
 }
 
+bool IsFile(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+// Refuses what would be passed over.
+void CheckArguments(const SequenceArguments& arguments) {
+  const auto refuse = [](const char* option, const std::string& found, const char* expected) {
+    throw InputError(option, "", found, expected);
+  };
+  if (!arguments.dataset.empty()) {
+    if (!arguments.frames.empty()) refuse("--frames", "frames beside --dataset", "one of the two");
+    if (!arguments.camera.empty()) {
+      refuse("--camera", "a camera beside --dataset", "the cameras of the dataset");
+    }
+    return;
+  }
+  if (arguments.frames.empty()) {
+    refuse("--frames", "nothing", "a picture, folder or video, or --dataset");
+  }
+  if (!arguments.model.empty()) {
+    if (arguments.sensors.empty()) refuse("--sensors", "nothing", "a sensor file (CSV)");
+    return;
+  }
+  if (!arguments.crs.empty()) refuse("--crs", "a system without a model", "--model PATH");
+  if (!arguments.dtm.empty()) refuse("--dtm", "a terrain without a model", "--model PATH");
+  if (!arguments.sensors.empty()) refuse("--sensors", "sensors without a model", "--model PATH");
+}
+
 void ReadFromDataset(const SequenceArguments& arguments,
                      const SensorOptions& sensors,
                      int threads,
                      SequenceInput& input) {
-  const Dataset dataset = ReadDataset(arguments.dataset);
-  std::vector<std::string> ids;
-  std::vector<fs::path> files;
-  for (const Query& query : dataset.queries) {
-    ids.push_back(query.id);
-    files.push_back(query.image);
-    input.frames.push_back({query.id, query.camera, std::nullopt, "no prior", query.truth});
+  Dataset dataset = ReadDataset(arguments.dataset);
+  if (!arguments.model.empty()) {
+    dataset.model.assign(arguments.model.begin(), arguments.model.end());
   }
-  input.source = FramesOfFiles(ids, files);
-  ReadModel(dataset.model, dataset.crs, dataset.dtm, threads, input);
+  if (!arguments.dtm.empty()) dataset.dtm = arguments.dtm;
+  SetCrs(arguments.crs, dataset);
+  PictureInputOptions picture_options;
+  picture_options.camera_height_m = sensors.camera_height_m;
+  PictureReader pictures;
+  std::optional<Crs> crs;
+  for (Query& query : dataset.queries) {
+    if (!IsFile(query.image)) continue;
+    const bool wants_prior = arguments.sensors.empty();
+    CompleteFromPicture(dataset, wants_prior, picture_options, pictures, crs, query);
+  }
+  for (const Query& query : dataset.queries) {
+    input.frames.push_back({query.id, query.camera, std::nullopt, "no prior", query.truth});
+    for (const Assumption& assumption : query.assumptions) {
+      input.notes.push_back(query.id + ": " + TextOf(assumption));
+    }
+  }
+  input.source = FramesOfQueries(dataset.queries);
+  WorldRequest request = RequestFor(dataset, 0.0);
+  request.whole_model = true;
+  request.needs_terrain =
+      request.needs_terrain || (!arguments.sensors.empty() && sensors.height_source != "gnss");
+  request.threads = threads;
+  TakeModel(request, input);
   for (std::size_t i = 0; i < dataset.queries.size(); ++i) {
     StartFromPrior(dataset.queries[i].prior, input, sensors.camera_height_m, input.frames[i]);
   }
 }
 
-void ReadFromParts(const SequenceArguments& arguments, int threads, SequenceInput& input) {
-  if (arguments.frames.empty()) {
-    throw InputError("--frames", "", "nothing", "a picture, folder or video, or --dataset");
-  }
+// Frames of a model need a camera; skylines alone do not.
+std::optional<CameraIntrinsics> CameraOfFrames(const SequenceArguments& arguments) {
+  if (!arguments.camera.empty()) return ReadCamera(arguments.camera);
+  if (arguments.model.empty()) return std::nullopt;
+  throw InputError("--camera", "", "nothing", "a camera file (JSON)");
+}
+
+void ReadFromParts(const SequenceArguments& arguments,
+                   const SensorOptions& sensors,
+                   int threads,
+                   SequenceInput& input) {
+  const std::optional<CameraIntrinsics> camera = CameraOfFrames(arguments);
   input.source = OpenFrames(arguments.frames);
-  std::optional<CameraIntrinsics> camera;
-  if (!arguments.camera.empty()) camera = ReadCamera(arguments.camera);
   for (std::size_t i = 0; i < input.source->size(); ++i) {
     input.frames.push_back({input.source->id(i), camera, std::nullopt, "no sensors", std::nullopt});
   }
   if (arguments.model.empty()) return;
-  if (!camera) throw InputError("--camera", "", "nothing", "a camera file (JSON)");
-  if (arguments.sensors.empty())
-    throw InputError("--sensors", "", "nothing", "a sensor file (CSV)");
-  const std::vector<fs::path> model(arguments.model.begin(), arguments.model.end());
-  std::optional<fs::path> dtm;
-  if (!arguments.dtm.empty()) dtm = arguments.dtm;
-  ReadModel(model, arguments.crs, dtm, threads, input);
+  WorldRequest request;
+  request.model.assign(arguments.model.begin(), arguments.model.end());
+  if (!arguments.dtm.empty()) request.dtm = arguments.dtm;
+  Dataset named;
+  SetCrs(arguments.crs, named);
+  request.crs = named.crs;
+  request.whole_model = true;
+  request.needs_terrain = sensors.height_source != "gnss";
+  request.threads = threads;
+  TakeModel(request, input);
 }
 
 }  // namespace
@@ -166,7 +204,7 @@ void AddSequenceOptions(CLI::App& command, SequenceArguments& arguments) {
   command.add_option("--dataset", arguments.dataset, "dataset.json whose queries are the frames");
   command.add_option("--frames", arguments.frames, "Picture, folder of pictures, or video");
   command.add_option("--model", arguments.model, "City model files or folders")->type_name("PATH");
-  command.add_option("--crs", arguments.crs, "System of the model, where it does not say");
+  command.add_option("--crs", arguments.crs, "Projected system of the positions");
   command.add_option("--dtm", arguments.dtm, "Terrain raster");
   command.add_option("--camera", arguments.camera, "Camera file (JSON)");
   command.add_option("--sensors", arguments.sensors, "Sensor readings per frame (CSV)");
@@ -175,9 +213,10 @@ void AddSequenceOptions(CLI::App& command, SequenceArguments& arguments) {
 std::unique_ptr<SequenceInput> ReadSequence(const SequenceArguments& arguments,
                                             const SensorOptions& sensors,
                                             int threads) {
+  CheckArguments(arguments);
   auto input = std::make_unique<SequenceInput>();
   if (arguments.dataset.empty()) {
-    ReadFromParts(arguments, threads, *input);
+    ReadFromParts(arguments, sensors, threads, *input);
   } else {
     ReadFromDataset(arguments, sensors, threads, *input);
   }

@@ -44,7 +44,8 @@ struct SequenceInput {
   // Absent without a model: then skylines can be extracted, and no more.
   std::optional<CityModel> model;
   std::optional<HeightGrid> dtm;
-  std::unique_ptr<Scene> scene;  // refers to model and dtm
+  std::unique_ptr<Scene> scene;    // refers to model and dtm
+  std::vector<std::string> notes;  // what was made of the pictures' own words
   std::vector<std::string> warnings;
 };
 

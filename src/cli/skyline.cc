@@ -294,6 +294,7 @@ int RunSkyline(SkylineArguments& arguments, const Context& context) {
   }
   const std::unique_ptr<SequenceInput> input =
       ReadSequence(arguments.sequence, arguments.sensors, context.threads);
+  for (const std::string& note : input->notes) context.Note(note);
   for (const std::string& warning : input->warnings) context.Warn(warning);
 
   if (!arguments.report.empty()) TemporaryBeside(arguments.report);  // fails before the work

@@ -12,7 +12,8 @@
 #include "cli/progress.h"
 #include "cli/study_output.h"
 #include "cli/version.h"
-#include "eval/world.h"
+#include "input/picture_input.h"
+#include "input/world.h"
 #include "report/html_report.h"
 #include "report/study_report.h"
 
@@ -131,7 +132,8 @@ void CheckOutputs(const StudyArguments& arguments) {
 }
 
 int RunStudyCommand(const StudyArguments& arguments, const Context& context) {
-  const Dataset dataset = ReadDataset(arguments.dataset);
+  Dataset dataset = ReadDataset(arguments.dataset);
+  CompleteFromPictures(dataset, false, PictureInputOptions{});  // priors are drawn
   LocalizerOptions localizer_options;
   ApplyConfig(arguments.config, [&](OptionVisitor& v) { localizer_options.Visit(v); });
   localizer_options.Validate();

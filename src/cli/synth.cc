@@ -61,10 +61,23 @@ void Commit(const fs::path& temporary, const fs::path& out) {
   CommitFile(temporary, out);
 }
 
+// A walk has frames in place of a town's pictures.
+void RefuseTownPictures(const TownDatasetOptions& options) {
+  const TownDatasetOptions defaults;
+  const auto refuse = [](const char* option) {
+    throw InputError(option, "", "pictures of a town beside --walk", "one of the two");
+  };
+  if (options.street != defaults.street) refuse("--queries");
+  if (options.tilted != defaults.tilted) refuse("--tilted");
+  if (options.portrait != defaults.portrait) refuse("--portrait");
+  if (options.drone != defaults.drone) refuse("--drone");
+}
+
 int RunSynth(SynthArguments& arguments, const Context& context) {
   TownDatasetOptions& options = arguments.options;
   WalkOptions& walk = arguments.walk;
   const bool is_walk = arguments.walk_frames > 0;
+  if (is_walk) RefuseTownPictures(options);
   if (!arguments.size.empty()) {
     ParseSize(arguments.size,
               is_walk ? walk.width : options.width,

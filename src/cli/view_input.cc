@@ -4,29 +4,22 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <sstream>
+#include <utility>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
-#include "city/read_city.h"
-#include "eval/dataset.h"
+#include "city/crs.h"
+#include "input/picture_input.h"
+#include "input/prior_pose.h"
+#include "input/read_picture.h"
+#include "input/world.h"
+#include "localize/localizer.h"
 
 namespace ridgeline {
 namespace {
 
 namespace fs = std::filesystem;
-
-// What the arguments name, before anything large is read.
-struct Named {
-  std::vector<fs::path> model;
-  std::string model_crs;
-  std::optional<fs::path> dtm;
-  std::optional<fs::path> image;
-  std::optional<CameraIntrinsics> camera;
-  std::optional<Pose> pose;        // world
-  std::optional<PosePrior> prior;  // where the pose is to be made from it
-};
 
 std::vector<double> CommaNumbers(const std::string& text) {
   std::vector<double> values;
@@ -41,8 +34,9 @@ std::vector<double> CommaNumbers(const std::string& text) {
   return values;
 }
 
-// A pose file: "position" and "cam_from_world_wxyz", at the top or in "pose".
-Pose ReadPoseFile(const fs::path& path) {
+// A pose file: "position" and "cam_from_world_wxyz", at the top or in "pose"; its "crs" becomes the
+// dataset's.
+Pose ReadPoseFile(const fs::path& path, Dataset& dataset) {
   const nlohmann::json json = nlohmann::json::parse(ReadFile(path), nullptr, false);
   const nlohmann::json& pose = json.is_object() && json.contains("pose") ? json["pose"] : json;
   const auto numbers = [&](const char* key, std::size_t count) {
@@ -57,15 +51,24 @@ Pose ReadPoseFile(const fs::path& path) {
   };
   const auto position = numbers("position", 3);
   const auto q = numbers("cam_from_world_wxyz", 4);
+  if (json.contains("crs") && json["crs"].is_string()) {
+    const std::string name = json["crs"];
+    const std::optional<Crs> crs = ParseCrs(name);
+    const std::optional<Crs> wanted = ParseCrs(dataset.crs);
+    if (crs && wanted && crs->horizontal_epsg != wanted->horizontal_epsg) {
+      throw InputError(path.string(), "crs", name, dataset.crs + ", as the rest");
+    }
+    if (crs && !wanted) dataset.crs = name;
+  }
   Pose result;
   result.center_in_world = {position[0], position[1], position[2]};
   result.cam_from_world = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
   return result;
 }
 
-Pose ParsePose(const std::string& text) {
+Pose ParsePose(const std::string& text, Dataset& dataset) {
   const std::vector<double> values = CommaNumbers(text);
-  if (values.empty()) return ReadPoseFile(text);
+  if (values.empty()) return ReadPoseFile(text, dataset);
   if (values.size() != 6) {
     throw InputError(
         "--pose", "", "\"" + text + "\"", "east,north,height,heading,pitch,roll or a pose file");
@@ -76,126 +79,113 @@ Pose ParsePose(const std::string& text) {
   return pose;
 }
 
-void TakeQuery(const ViewArguments& arguments, Named& named) {
-  const Dataset dataset = ReadDataset(arguments.dataset);
-  std::vector<std::string> ids;
-  for (const Query& query : dataset.queries) ids.push_back(query.id);
-  const auto it = std::find(ids.begin(), ids.end(), arguments.query);
-  if (it == ids.end()) {
-    throw InputError(
-        "--query",
-        "",
-        "\"" + arguments.query + "\"",
-        "a query of " + arguments.dataset + ", e.g. \"" + NearestName(arguments.query, ids) + "\"");
-  }
-  const Query& query = dataset.queries[static_cast<std::size_t>(it - ids.begin())];
-  named.model = dataset.model;
-  named.model_crs = dataset.crs;
-  named.dtm = dataset.dtm;
-  named.image = query.image;
-  named.camera = query.camera;
-  if (arguments.at == "truth") named.pose = query.truth;
-  if (arguments.at == "prior") named.prior = query.prior;
-}
+// Where the camera is to be: a pose, or a prior that the terrain completes.
+struct Place {
+  std::optional<Pose> pose;  // world
+  std::optional<PosePrior> prior;
+};
 
-Named Resolve(const ViewArguments& arguments) {
-  Named named;
-  if (!arguments.dataset.empty()) TakeQuery(arguments, named);
-  if (!arguments.model.empty()) named.model.assign(arguments.model.begin(), arguments.model.end());
-  if (!arguments.dtm.empty()) named.dtm = arguments.dtm;
-  if (!arguments.image.empty()) named.image = arguments.image;
-  if (!arguments.camera.empty()) named.camera = ReadCamera(arguments.camera);
+Place PlaceOf(const ViewArguments& arguments, Dataset& dataset) {
+  const Query& query = dataset.queries.front();
+  Place place;
   if (!arguments.pose.empty()) {
-    named.pose = ParsePose(arguments.pose);
-    named.prior.reset();
+    if (!arguments.at.empty()) {
+      throw InputError("--at", "", "\"" + arguments.at + "\" beside --pose", "one of the two");
+    }
+    place.pose = ParsePose(arguments.pose, dataset);
+    return place;
   }
-  if (named.model.empty()) throw InputError("--model", "", "nothing", "model files, or --dataset");
-  if (!named.camera) throw InputError("--camera", "", "nothing", "a camera file, or --dataset");
-  if (!named.pose && !named.prior) {
-    throw InputError("--pose",
-                     "",
-                     arguments.dataset.empty() ? "nothing" : "a query without " + arguments.at,
-                     "east,north,height,heading,pitch,roll or a pose file");
+  if (arguments.query.dataset.empty() && !arguments.at.empty()) {
+    throw InputError("--at", "", "\"" + arguments.at + "\" without a query", "--dataset FILE");
   }
-  return named;
-}
-
-// Level ground 1.7 m below the camera stands in for what a prior leaves open.
-Pose PoseOfPrior(const PosePrior& prior, const ViewInput& view) {
-  const Eigen::Vector2d xy = prior.position_in_world - view.model.origin_in_world.head<2>();
-  double height = 0.0;
-  if (prior.height_in_world) {
-    height = *prior.height_in_world - view.model.origin_in_world.z();
+  if (arguments.at == "prior") {
+    place.prior = query.prior;
   } else {
-    const auto terrain = view.dtm ? view.dtm->HeightAt(xy) : std::nullopt;
-    if (!terrain)
-      throw InputError("prior", "position", "no height", "a height, or a DTM that covers it");
-    height = *terrain + 1.7;
+    place.pose = query.truth;
   }
-  Pose pose;
-  pose.center_in_world = {xy.x(), xy.y(), height};
-  pose.cam_from_world = CamFromWorld(ViewAngles{prior.heading_deg.value_or(0.0),
-                                                prior.pitch_deg.value_or(0.0),
-                                                prior.roll_deg.value_or(0.0)});
-  return pose;
+  return place;
 }
 
-cv::Mat ReadPhoto(const fs::path& path, const CameraIntrinsics& camera) {
-  ReadFile(path);  // says what is wrong with the file itself
-  const cv::Mat photo = cv::imread(path.string(), cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  if (photo.empty()) throw InputError(path.string(), "", "no picture", "a JPEG, PNG or TIFF file");
-  if (photo.cols != camera.width || photo.rows != camera.height) {
-    throw InputError(path.string(),
-                     "",
-                     std::to_string(photo.cols) + " x " + std::to_string(photo.rows) + " px",
-                     "the camera's " + std::to_string(camera.width) + " x " +
-                         std::to_string(camera.height) + " px");
+// Camera, and the prior that is to be looked from, as the picture tells them where nothing else
+// does.
+void TakeFromPicture(const ViewArguments& arguments,
+                     PictureReader& pictures,
+                     Dataset& dataset,
+                     Place& place) {
+  Query& query = dataset.queries.front();
+  const bool at_prior = arguments.at == "prior";
+  if (query.image.empty()) {
+    if (!query.camera) {
+      throw InputError("--camera", "", "nothing", "a camera file, or a picture that tells its own");
+    }
+    return;
   }
-  return UndistortImage(photo, camera);
+  std::optional<Crs> crs;
+  CompleteFromPicture(dataset, at_prior, PictureInputOptions{}, pictures, crs, query);
+  if (at_prior) place.prior = query.prior;
+}
+
+// The request for a model as a whole and the terrain about the place.
+WorldRequest RequestOf(const Dataset& dataset, const Place& place, int threads) {
+  WorldRequest request;
+  request.model = dataset.model;
+  request.dtm = dataset.dtm;
+  request.crs = dataset.crs;
+  request.whole_model = true;
+  request.needs_terrain = place.prior && !place.prior->height_in_world;
+  request.threads = threads;
+  if (place.prior) request.places.extend(place.prior->position_in_world);
+  if (place.pose) request.places.extend(Eigen::Vector2d(place.pose->center_in_world.head<2>()));
+  return request;
 }
 
 }  // namespace
 
 void AddViewOptions(CLI::App& command, ViewArguments& arguments) {
-  command.add_option("--dataset", arguments.dataset, "dataset.json to take a query from");
-  command.add_option("--query", arguments.query, "Its id");
-  command.add_option("--at", arguments.at, "The query's pose")
-      ->check(CLI::IsMember({"truth", "prior"}))
-      ->capture_default_str();
-  command.add_option("--model", arguments.model, "City model files or folders")->type_name("PATH");
-  command.add_option("--dtm", arguments.dtm, "Terrain raster");
-  command.add_option("--image", arguments.image, "Photo to draw on");
-  command.add_option("--camera", arguments.camera, "Camera file (JSON)");
+  AddQueryOptions(command, arguments.query);
+  command.add_option("--at", arguments.at, "The query's pose [truth]")
+      ->check(CLI::IsMember({"truth", "prior"}));
+  command.add_option("--image", arguments.query.image, "Photo to draw on");
   command.add_option("--pose", arguments.pose, "Pose file, or E,N,H,HEADING,PITCH,ROLL");
 }
 
 std::unique_ptr<ViewInput> ReadView(const ViewArguments& arguments, int threads) {
-  const Named named = Resolve(arguments);
-  auto view = std::make_unique<ViewInput>();
-  if (named.image) view->photo = ReadPhoto(*named.image, *named.camera);
-  view->camera = named.camera->Pinhole();
-  CityOptions city;
-  city.model_crs = named.model_crs;
-  city.threads = threads;
-  view->model = ReadCity(named.model, city);
-  view->warnings = view->model.warnings;
-  if (named.dtm) {
-    Eigen::Vector2d lower = view->model.vertices.front().head<2>();
-    Eigen::Vector2d upper = lower;
-    for (const Eigen::Vector3d& vertex : view->model.vertices) {
-      lower = lower.cwiseMin(vertex.head<2>());
-      upper = upper.cwiseMax(vertex.head<2>());
-    }
-    view->dtm = ReadDtm(*named.dtm, view->model, lower, upper, 100.0, view->warnings);
+  Dataset dataset = ReadQuery(arguments.query);
+  Place place = PlaceOf(arguments, dataset);
+  PictureReader pictures;
+  TakeFromPicture(arguments, pictures, dataset, place);
+  if (!place.pose && !place.prior) {
+    throw InputError("--pose",
+                     "",
+                     arguments.query.dataset.empty()
+                         ? "nothing"
+                         : "a query without " + (arguments.at.empty() ? "truth" : arguments.at),
+                     "east,north,height,heading,pitch,roll or a pose file");
   }
+  const Query& query = dataset.queries.front();
+  auto view = std::make_unique<ViewInput>();
+  view->assumptions = query.assumptions;
+  view->camera = query.camera->Pinhole();
+  if (!query.image.empty()) {
+    view->photo = UndistortImage(BgrOf(pictures.Read(query)), *query.camera);
+  }
+  World world = ReadWorld(RequestOf(dataset, place, threads));
+  view->model = std::move(world.model);
+  view->dtm = std::move(world.dtm);
+  view->warnings = std::move(world.warnings);
   view->scene =
       std::make_unique<Scene>(view->model, view->dtm ? &*view->dtm : nullptr, ProjectionOptions{});
-  if (named.pose) {
-    view->cam_from_local = *named.pose;
-    view->cam_from_local.center_in_world -= view->model.origin_in_world;
-  } else {
-    view->cam_from_local = PoseOfPrior(*named.prior, *view);
+  if (place.prior) {
+    place.pose = PoseOfPrior(*place.prior,
+                             view->dtm ? &*view->dtm : nullptr,
+                             view->model.origin_in_world,
+                             kCameraHeightM);
+    if (!place.pose) {
+      throw InputError("prior", "position", "no height", "a height, or a DTM that covers it");
+    }
   }
+  view->cam_from_local = *place.pose;
+  view->cam_from_local.center_in_world -= view->model.origin_in_world;
   return view;
 }
 

@@ -13,20 +13,16 @@
 #include "camera/pose.h"
 #include "city/city_model.h"
 #include "city/terrain.h"
+#include "cli/query_input.h"
+#include "input/assumption.h"
 #include "projection/scene.h"
 
 namespace ridgeline {
 
-// A camera at a pose in a model, named on the command line: a query of a dataset, or model, camera
-// and pose one by one.
+// A camera at a pose in a model, named on the command line.
 struct ViewArguments {
-  std::string dataset;
-  std::string query;
-  std::string at = "truth";  // of the query: "truth" or "prior"
-  std::vector<std::string> model;
-  std::string dtm;
-  std::string image;
-  std::string camera;
+  QueryArguments query;
+  std::string at;    // of the query: "truth" or "prior"; "": truth
   std::string pose;  // result or pose file, or "east,north,height,heading,pitch,roll"
 };
 
@@ -37,6 +33,7 @@ struct ViewInput {
   PinholeCamera camera;
   cv::Mat photo;  // undistorted, 8-bit BGR; empty: none given
   Pose cam_from_local;
+  std::vector<Assumption> assumptions;
   std::vector<std::string> warnings;
 };
 

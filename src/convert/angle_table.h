@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "convert/convert_options.h"
-#include "eval/dataset.h"
+#include "input/dataset.h"
 
 namespace ridgeline {
 

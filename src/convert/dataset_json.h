@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "eval/dataset.h"
+#include "input/dataset.h"
 
 namespace ridgeline {
 

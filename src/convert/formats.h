@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "convert/convert_options.h"
-#include "eval/dataset.h"
+#include "input/dataset.h"
 
 namespace ridgeline {
 

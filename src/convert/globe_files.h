@@ -4,7 +4,7 @@
 #include <string>
 
 #include "city/city_model.h"
-#include "eval/dataset.h"
+#include "input/dataset.h"
 
 namespace ridgeline {
 

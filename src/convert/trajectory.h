@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "eval/dataset.h"
+#include "input/dataset.h"
 
 namespace ridgeline {
 

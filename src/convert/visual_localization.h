@@ -8,7 +8,7 @@
 
 #include "convert/convert_options.h"
 #include "convert/text_lines.h"
-#include "eval/dataset.h"
+#include "input/dataset.h"
 
 namespace ridgeline {
 

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "eval/read_picture.h"
 #include "lines/segments_file.h"
 
 namespace ridgeline {
@@ -28,9 +27,11 @@ PoseSpaceOptions RangesOf(const PoseSpaceOptions& options, const Perturbation& p
   return ranges;
 }
 
-LocalizationInput InputOf(const Query& query, const LocalizerOptions& options) {
+LocalizationInput InputOf(const Query& query,
+                          const LocalizerOptions& options,
+                          PictureReader& pictures) {
   LocalizationInput input;
-  input.picture = ReadPicture(query);
+  input.picture = pictures.Read(query);
   if (!query.camera) {
     throw InputError(query.image.string(), "camera", "none", "a camera for query " + query.id);
   }
@@ -38,7 +39,9 @@ LocalizationInput InputOf(const Query& query, const LocalizerOptions& options) {
   if (query.prior) input.prior = *query.prior;
   if (options.lines.detector == "file") {
     if (!query.lines) {
-      throw InputError(query.image.string(), "lines", "none",
+      throw InputError(query.image.string(),
+                       "lines",
+                       "none",
                        "a file of segments, since lines.detector is \"file\"");
     }
     input.lines = ReadSegments(*query.lines, *query.camera);
@@ -88,13 +91,15 @@ std::vector<BenchRun> RunBench(const Dataset& dataset,
                      options.perturb ? "no query with a truth" : "no query with a prior",
                      options.perturb ? "a truth to draw priors around" : "priors, or --perturb");
   }
+  PictureReader own_pictures;
+  PictureReader& pictures = options.pictures != nullptr ? *options.pictures : own_pictures;
   std::vector<BenchRun> runs;
   const std::size_t total = usable.size() * options.seeds.size();
   for (const std::size_t q : usable) {
     const Query& query = dataset.queries[q];
     for (const int seed : options.seeds) {
       const auto start = std::chrono::steady_clock::now();
-      LocalizationInput input = InputOf(query, localizer.options());
+      LocalizationInput input = InputOf(query, localizer.options(), pictures);
       PoseSpaceOptions ranges = localizer.options().search.space;
       if (options.perturb) {
         input.prior = DrawPrior(*query.truth, *options.perturb, seed, query.id);

@@ -8,9 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "eval/dataset.h"
 #include "eval/metrics.h"
 #include "eval/perturb.h"
+#include "input/dataset.h"
+#include "input/read_picture.h"
 #include "localize/localizer.h"
 
 namespace ridgeline {
@@ -20,6 +21,8 @@ struct BenchOptions {
   std::optional<Perturbation> perturb;
   std::vector<int> seeds = {1};
   int threads = 0;
+  // For others who read the same pictures; null: they are read for the runs alone.
+  PictureReader* pictures = nullptr;
 };
 
 // One run with all that a report shows.
@@ -46,7 +49,9 @@ PoseSpaceOptions RangesOf(const PoseSpaceOptions& options, const Perturbation& p
 
 // The prior and camera of a query, from the dataset or, where absent, from the picture. Throws
 // InputError naming the query.
-LocalizationInput InputOf(const Query& query, const LocalizerOptions& options);
+LocalizationInput InputOf(const Query& query,
+                          const LocalizerOptions& options,
+                          PictureReader& pictures);
 
 // The record of one localization.
 RunRecord RecordOf(const Query& query, int seed, const Localization& localization, double seconds);

@@ -42,14 +42,23 @@ Json JsonOf(const Pose& pose, const CityModel& model) {
   return json;
 }
 
+Json JsonOf(const std::vector<Assumption>& assumptions) {
+  Json json = Json::array();
+  for (const Assumption& assumption : assumptions) {
+    json.push_back(
+        {{"what", assumption.what}, {"value", assumption.value}, {"source", assumption.source}});
+  }
+  return json;
+}
+
 // Semi-axes of the 95 % ellipse and the direction of the longer one.
 Json EllipseJson(const PoseSpread& spread) {
   constexpr double kChiSquare95 = 5.991464547107979;  // two degrees of freedom
   constexpr double kNormal95 = 1.959963984540054;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(spread.position_covariance);
   const Eigen::Vector2d longest = solver.eigenvectors().col(1);
-  const double direction = std::fmod(
-      WrapHeadingDeg(std::atan2(longest.x(), longest.y()) * 180.0 / M_PI), 180.0);
+  const double direction =
+      std::fmod(WrapHeadingDeg(std::atan2(longest.x(), longest.y()) * 180.0 / M_PI), 180.0);
   return {{"semi_major_m", Metres(std::sqrt(kChiSquare95 * solver.eigenvalues()(1)))},
           {"semi_minor_m", Metres(std::sqrt(kChiSquare95 * solver.eigenvalues()(0)))},
           {"major_axis_deg", Metres(direction)},
@@ -60,7 +69,8 @@ Json EllipseJson(const PoseSpread& spread) {
 
 std::string PoseJson(const std::string& picture,
                      const Localization& localization,
-                     const CityModel& model) {
+                     const CityModel& model,
+                     const std::vector<Assumption>& assumptions) {
   Json json;
   json["picture"] = picture;
   json["status"] = localization.pose ? "ok" : "abstained";
@@ -80,6 +90,7 @@ std::string PoseJson(const std::string& picture,
                              {"roll_deg", Fine(view.roll_deg)},
                              {"energy", Fine(mode.energy)}});
   }
+  json["assumptions"] = JsonOf(assumptions);
   json["warnings"] = localization.warnings;
   return json.dump(1) + "\n";
 }
@@ -87,12 +98,14 @@ std::string PoseJson(const std::string& picture,
 std::string RunJson(const Localization& localization,
                     std::uint64_t seed,
                     const std::string& version,
-                    const std::string& options_json) {
+                    const std::string& options_json,
+                    const std::vector<Assumption>& assumptions) {
   Json json;
   json["version"] = version;
   json["seed"] = seed;
   json["evaluations"] = localization.evaluations;
   for (const StageTime& time : localization.times) json["seconds"][time.name] = time.seconds;
+  json["assumptions"] = JsonOf(assumptions);
   json["options"] = Json::parse(options_json);
   return json.dump(1) + "\n";
 }

@@ -2,24 +2,28 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "city/city_model.h"
+#include "input/assumption.h"
 #include "localize/localization.h"
 
 namespace ridgeline {
 
 // A localization as JSON (pose.json): status and reason; the pose as position with
-// cam_from_world_wxyz, heading / pitch / roll, omega / phi / kappa, COLMAP's translation relative to
-// the model's origin, and latitude / longitude; energy, confidence, 95 % region, modes. The same
-// bytes for the same result: no times.
+// cam_from_world_wxyz, heading / pitch / roll, omega / phi / kappa, COLMAP's translation relative
+// to the model's origin, and latitude / longitude; energy, confidence, 95 % region, modes; what was
+// assumed of the input. The same bytes for the same result: no times.
 std::string PoseJson(const std::string& picture,
                      const Localization& localization,
-                     const CityModel& model);
+                     const CityModel& model,
+                     const std::vector<Assumption>& assumptions);
 
 // Stage times, evaluations, seed, version and resolved options (report.json).
 std::string RunJson(const Localization& localization,
                     std::uint64_t seed,
                     const std::string& version,
-                    const std::string& options_json);
+                    const std::string& options_json,
+                    const std::vector<Assumption>& assumptions);
 
 }  // namespace ridgeline

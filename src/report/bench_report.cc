@@ -8,7 +8,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "eval/read_picture.h"
+#include "input/prior_pose.h"
 #include "report/hillshade.h"
 #include "report/overlay_layers.h"
 
@@ -41,6 +41,18 @@ Pose LocalOf(Pose pose, const Localizer& localizer) {
   return pose;
 }
 
+// The prior of a run; off the terrain, where nothing is searched, at the height of the model's
+// origin.
+Pose PriorPoseOf(const BenchRun& run, const Localizer& localizer) {
+  const Vector3d& origin = localizer.scene().model().origin_in_world;
+  const double camera_height_m = localizer.options().search.space.camera_height_m;
+  const auto pose = PoseOfPrior(run.prior, localizer.dtm(), origin, camera_height_m);
+  if (pose) return *pose;
+  PosePrior at_origin = run.prior;
+  at_origin.height_in_world = origin.z();
+  return PoseOfPrior(at_origin, nullptr, origin, camera_height_m).value();
+}
+
 ReportOutcome OutcomeOf(const RunRecord& record) {
   if (!record.has_truth) return record.pose ? ReportOutcome::kUnknown : ReportOutcome::kAbstained;
   if (!record.pose) return ReportOutcome::kAbstained;
@@ -48,10 +60,10 @@ ReportOutcome OutcomeOf(const RunRecord& record) {
   return right ? ReportOutcome::kRight : ReportOutcome::kWrong;
 }
 
-ReportPhoto PhotoOf(const Query& query) {
+ReportPhoto PhotoOf(const Query& query, PictureReader& pictures) {
   ReportPhoto photo;
   photo.name = query.image.filename().string();
-  const cv::Mat picture = UndistortImage(BgrOf(ReadPicture(query)), *query.camera);
+  const cv::Mat picture = UndistortImage(BgrOf(pictures.Read(query)), *query.camera);
   photo.width = picture.cols;
   photo.height = picture.rows;
   const double scale =
@@ -136,7 +148,7 @@ ReportRun RunOf(const BenchRun& run,
     report.translation_m = run.record.error->translation_m;
     report.rotation_deg = run.record.error->rotation_deg;
   }
-  report.prior = PoseOf(PoseOfPrior(run.prior, localizer));
+  report.prior = PoseOf(PriorPoseOf(run, localizer));
   if (localization.pose) report.result = PoseOf(*localization.pose);
   if (query.truth) report.truth = PoseOf(*query.truth);
   for (const PoseMode& mode : localization.modes) {
@@ -207,22 +219,17 @@ void AddSummary(std::span<const BenchRun> runs, ReportData& data) {
   data.tables.push_back(std::move(table));
 }
 
-}  // namespace
-
-Pose PoseOfPrior(const PosePrior& prior, const Localizer& localizer) {
-  const Vector3d origin = localizer.scene().model().origin_in_world;
-  double height = prior.height_in_world.value_or(origin.z());
-  if (!prior.height_in_world && localizer.dtm() != nullptr) {
-    const auto terrain = localizer.dtm()->HeightAt(prior.position_in_world - origin.head<2>());
-    height = origin.z() + terrain.value_or(0.0) + localizer.options().search.space.camera_height_m;
+void AddAssumptions(const std::vector<Query>& queries, ReportData& data) {
+  ReportTable table{"Assumptions", {"photo", "what", "value", "source"}, {}};
+  for (const Query& query : queries) {
+    for (const Assumption& a : query.assumptions) {
+      table.rows.push_back({query.id, a.what, a.value, a.source});
+    }
   }
-  Pose pose;
-  pose.center_in_world = {prior.position_in_world.x(), prior.position_in_world.y(), height};
-  pose.cam_from_world = CamFromWorld(ViewAngles{prior.heading_deg.value_or(0.0),
-                                                prior.pitch_deg.value_or(0.0),
-                                                prior.roll_deg.value_or(0.0)});
-  return pose;
+  if (!table.rows.empty()) data.tables.push_back(std::move(table));
 }
+
+}  // namespace
 
 Overlay ResultOverlay(const Localizer& localizer,
                       const PinholeCamera& camera,
@@ -230,7 +237,7 @@ Overlay ResultOverlay(const Localizer& localizer,
   const Scene& scene = localizer.scene();
   Overlay overlay;
   overlay.layers.push_back(PlainEdgeLayer(
-      scene, camera, LocalOf(PoseOfPrior(run.prior, localizer), localizer), "model at the prior"));
+      scene, camera, LocalOf(PriorPoseOf(run, localizer), localizer), "model at the prior"));
   const Localization& localization = run.localization;
   if (!localization.pose && localization.modes.empty()) return overlay;
   const Pose best = localization.pose ? *localization.pose : localization.modes.front().pose;
@@ -250,7 +257,8 @@ ReportData BenchReport(const ReportOrigin& origin,
                        const std::vector<Query>& queries,
                        const Localizer& localizer,
                        const PoseSpaceOptions& ranges,
-                       std::span<const BenchRun> runs) {
+                       std::span<const BenchRun> runs,
+                       PictureReader& pictures) {
   ReportData data;
   data.title = origin.title;
   data.command = origin.command;
@@ -264,10 +272,11 @@ ReportData BenchReport(const ReportOrigin& origin,
     const Query& query = queries[run.query];
     const auto [it, added] =
         photo_of_query.emplace(run.query, static_cast<int>(data.photos.size()));
-    if (added) data.photos.push_back(PhotoOf(query));
+    if (added) data.photos.push_back(PhotoOf(query, pictures));
     data.runs.push_back(RunOf(run, query, localizer, ranges));
     data.runs.back().photo = it->second;
   }
+  AddAssumptions(queries, data);
   return data;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "eval/bench.h"
+#include "input/read_picture.h"
 #include "localize/localizer.h"
 #include "report/report_data.h"
 
@@ -22,19 +23,16 @@ struct ReportOrigin {
 
 // The report of localized queries: of one (`ridgeline localize`) or many (`ridgeline bench`).
 // @param ranges  Half-ranges of the search box of these runs.
-// Reads the pictures again, one by one, and keeps them small.
+// The photos are kept small; what was assumed of each query is a table.
 ReportData BenchReport(const ReportOrigin& origin,
                        const std::vector<Query>& queries,
                        const Localizer& localizer,
                        const PoseSpaceOptions& ranges,
-                       std::span<const BenchRun> runs);
+                       std::span<const BenchRun> runs,
+                       PictureReader& pictures);
 
 // Model edges at the prior (thin, grey) and at the result (by kind) over the photo, on its
 // undistorted picture; at the best mode if there is no result.
 Overlay ResultOverlay(const Localizer& localizer, const PinholeCamera& camera, const BenchRun& run);
-
-// The prior as a pose in the world frame; what is not known is level, to the north, and
-// `camera_height_m` above the terrain.
-Pose PoseOfPrior(const PosePrior& prior, const Localizer& localizer);
 
 }  // namespace ridgeline

@@ -156,7 +156,8 @@ class QueryStudy {
 LocalizationInput StudyInput(const Query& query,
                              const LocalizerOptions& localizer_options,
                              const StudyOptions& options) {
-  LocalizationInput input = InputOf(query, localizer_options);
+  PictureReader pictures;
+  LocalizationInput input = InputOf(query, localizer_options, pictures);
   if (input.picture.cols != input.camera.width || input.picture.rows != input.camera.height) {
     throw InputError(
         query.image.string(),

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "eval/dataset.h"
 #include "eval/perturb.h"
+#include "input/dataset.h"
 #include "localize/localizer.h"
 #include "study/explore.h"
 #include "study/reliability.h"

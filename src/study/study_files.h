@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/dataset.h"
+#include "input/dataset.h"
 #include "study/study.h"
 #include "study/study_summary.h"
 

@@ -45,13 +45,14 @@ cv::Mat Photo(const Scene& scene, const Pose& cam_from_local) {
           buffers.surfaces[static_cast<std::size_t>(y) * picture.cols + x];
       cv::Vec3b& pixel = picture.at<cv::Vec3b>(y, x);
       if (surface == kNoSurface) {
-        const Eigen::Vector3d ray = cam_from_local.cam_from_world.conjugate() *
-                                    kCamera.RayFromImage({x + 0.5, y + 0.5});
+        const Eigen::Vector3d ray =
+            cam_from_local.cam_from_world.conjugate() * kCamera.RayFromImage({x + 0.5, y + 0.5});
         if (ray.z() < 0.0) pixel = {70, 70, 70};
         continue;
       }
       const Surface& s = scene.model().surfaces[surface];
-      const double shade = 110.0 + 50.0 * s.normal.x() + 25.0 * s.normal.y() + 6.0 * (s.building % 5);
+      const double shade =
+          110.0 + 50.0 * s.normal.x() + 25.0 * s.normal.y() + 6.0 * (s.building % 5);
       pixel = s.surface_class == SurfaceClass::kRoof
                   ? cv::Vec3b(60, 80, static_cast<unsigned char>(shade + 30))
                   : cv::Vec3b(static_cast<unsigned char>(shade - 20),
@@ -124,7 +125,8 @@ TEST_F(LocalizerOnAStreet, PriorsWithWrongTiltsAreNoObstacle) {
 
 TEST_F(LocalizerOnAStreet, TiltsFarFromThePriorsAreLessLikely) {
   const Footprints footprints(model_);
-  const PoseSpace space(input_.prior, Options().search.space, localizer_.scene(), nullptr, footprints);
+  const PoseSpace space(
+      input_.prior, Options().search.space, localizer_.scene(), nullptr, footprints);
   PoseSpace::Offset offset;
   EXPECT_EQ(space.LogPrior(offset), 0.0);
   offset.east_m = 4.0;
@@ -136,8 +138,8 @@ TEST_F(LocalizerOnAStreet, TiltsFarFromThePriorsAreLessLikely) {
 }
 
 TEST_F(LocalizerOnAStreet, IsTheSameOnAnyNumberOfThreads) {
-  const std::string one = PoseJson("photo", localizer_.Localize(input_, 1, 1), model_);
-  EXPECT_EQ(PoseJson("photo", localizer_.Localize(input_, 1, 8), model_), one);
+  const std::string one = PoseJson("photo", localizer_.Localize(input_, 1, 1), model_, {});
+  EXPECT_EQ(PoseJson("photo", localizer_.Localize(input_, 1, 8), model_, {}), one);
 }
 
 TEST_F(LocalizerOnAStreet, MovesWithTheWorld) {
@@ -180,7 +182,8 @@ TEST_F(LocalizerOnAStreet, GreyDeepAndTransparentPicturesAreRead) {
 TEST_F(LocalizerOnAStreet, BadInputIsNamed) {
   LocalizationInput input = input_;
   input.camera.width = 641;
-  EXPECT_THAT(ErrorOfInput(input), ::testing::StartsWith("image: got 640 x 480, expected the camera's"));
+  EXPECT_THAT(ErrorOfInput(input),
+              ::testing::StartsWith("image: got 640 x 480, expected the camera's"));
   input = input_;
   input.prior.position_in_world.x() += 5000.0;
   EXPECT_THAT(ErrorOfInput(input), ::testing::HasSubstr("expected a place in the model, between"));
@@ -193,8 +196,12 @@ TEST_F(LocalizerOnAStreet, BadInputIsNamed) {
 }
 
 TEST_F(LocalizerOnAStreet, EverySamplerAndScoreRuns) {
-  for (const char* score : {"line_energy", "skyline_l1", "line_energy_zbuffer", "oriented_chamfer",
-                            "gradient", "unexplained"}) {
+  for (const char* score : {"line_energy",
+                            "skyline_l1",
+                            "line_energy_zbuffer",
+                            "oriented_chamfer",
+                            "gradient",
+                            "unexplained"}) {
     LocalizerOptions options = Options();
     options.score.name = score;
     options.search.method = "sampler";

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
-#include "eval/dataset.h"
+#include "input/dataset.h"
 #include "localize/localizer.h"
 #include "support/synthetic_city.h"
 

@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "city/read_city.h"
 #include "city/terrain.h"
-#include "eval/dataset.h"
+#include "input/dataset.h"
 #include "projection/scene.h"
 #include "synth/town_model.h"
 
@@ -33,7 +33,8 @@ TownDatasetOptions SmallOptions() {
 }
 
 fs::path Write(const std::string& name, const TownDatasetOptions& options, int threads) {
-  const fs::path folder = fs::path(::testing::TempDir()) / ("town_dataset_" + name + "_" + std::to_string(::getpid()));
+  const fs::path folder =
+      fs::path(::testing::TempDir()) / ("town_dataset_" + name + "_" + std::to_string(::getpid()));
   fs::remove_all(folder);
   fs::create_directories(folder);
   WriteTownDataset(options, folder, threads, [](std::size_t, std::size_t) {});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "eval/picture_input.h"
+#include "input/picture_input.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "camera/magnetic_declination.h"
-#include "eval/read_picture.h"
+#include "input/read_picture.h"
 #include "support/exif_writer.h"
 
 namespace ridgeline {
@@ -144,13 +144,15 @@ class PictureOnItsSide : public ::testing::Test {
   }
   ~PictureOnItsSide() override { std::filesystem::remove(path_); }
 
+  PictureReader pictures_;
+
   std::filesystem::path path_ = std::filesystem::path(::testing::TempDir()) /
                                 ("ridgeline_picture_input_" + std::to_string(::getpid()) + ".jpg");
   Query query_;
 };
 
 TEST_F(PictureOnItsSide, IsTurnedWithTheCameraItTells) {
-  const PictureInput input = ReadPictureInput(query_, kUtm32, std::nullopt, {});
+  const PictureInput input = ReadPictureInput(query_, kUtm32, std::nullopt, {}, pictures_);
   ASSERT_TRUE(input.camera.has_value());
   EXPECT_EQ(input.camera->width, 30);
   EXPECT_EQ(input.camera->height, 40);
@@ -164,11 +166,19 @@ TEST_F(PictureOnItsSide, IsTurnedWithTheCameraItTells) {
 
 TEST_F(PictureOnItsSide, IsNotTurnedWithACameraOfItsOwn) {
   query_.camera = CameraIntrinsics{"SIMPLE_PINHOLE", 40, 30, {30.0, 20.0, 15.0}};
-  const PictureInput input = ReadPictureInput(query_, kUtm32, std::nullopt, {});
+  const PictureInput input = ReadPictureInput(query_, kUtm32, std::nullopt, {}, pictures_);
   EXPECT_FALSE(input.camera.has_value());
   EXPECT_EQ(input.orientation, 1);
   EXPECT_EQ(input.prior->roll_deg.value(), 90.0);
   EXPECT_EQ(ReadPicture(query_).cols, 40);
+}
+
+TEST_F(PictureOnItsSide, IsDecodedOnce) {
+  EXPECT_EQ(pictures_.Read(query_).cols, 40);
+  std::filesystem::remove(path_);
+  query_.orientation = 6;
+  EXPECT_EQ(pictures_.Read(query_).cols, 30);
+  EXPECT_THROW(PictureReader().Read(query_), InputError);
 }
 
 }  // namespace

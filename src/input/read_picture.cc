@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "eval/read_picture.h"
+#include "input/read_picture.h"
 
 #include <opencv2/imgcodecs.hpp>
 #include <string>
@@ -63,8 +63,11 @@ cv::Mat ReadPicture(const std::filesystem::path& path) {
   return picture;
 }
 
-cv::Mat ReadPicture(const Query& query) {
-  cv::Mat picture = TurnedUpright(ReadPicture(query.image), query.orientation);
+namespace {
+
+// The query's picture from the one that is stored.
+cv::Mat PictureOf(const Query& query, const cv::Mat& stored) {
+  cv::Mat picture = TurnedUpright(stored, query.orientation);
   const bool fits = !query.camera ||
                     (picture.cols == query.camera->width && picture.rows == query.camera->height);
   if (fits) return picture;
@@ -76,5 +79,19 @@ cv::Mat ReadPicture(const Query& query) {
       "the camera's " + SizeText(query.camera->width, query.camera->height) +
           (turned ? " (pictures are taken as they are stored, not as EXIF turns them)" : ""));
 }
+
+}  // namespace
+
+cv::Mat ReadPicture(const Query& query) { return PictureOf(query, ReadPicture(query.image)); }
+
+cv::Mat PictureReader::Read(const std::filesystem::path& path) {
+  if (stored_.empty() || path != path_) {
+    stored_ = ReadPicture(path);
+    path_ = path;
+  }
+  return stored_;
+}
+
+cv::Mat PictureReader::Read(const Query& query) { return PictureOf(query, Read(query.image)); }
 
 }  // namespace ridgeline

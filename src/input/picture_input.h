@@ -8,8 +8,9 @@
 
 #include "camera/picture_facts.h"
 #include "city/city_model.h"
-#include "eval/dataset.h"
-#include "localize/pose_space.h"
+#include "input/dataset.h"
+#include "input/prior_pose.h"
+#include "input/read_picture.h"
 
 namespace ridgeline {
 
@@ -17,7 +18,7 @@ struct PictureInputOptions {
   // Magnetic declination [deg], east positive. Absent: by the World Magnetic Model.
   std::optional<double> declination_deg;
   // Height of a camera above the ground that it stands on [m].
-  double camera_height_m = 1.7;
+  double camera_height_m = kCameraHeightM;
 };
 
 // What was made of a picture's own words.
@@ -30,7 +31,8 @@ struct PictureInput {
   double height_m = 0.0;
   double pitch_deg = 0.0;
   double roll_deg = 0.0;
-  // What was taken from where and what was assumed, one line each.
+  bool magnetic = false;  // the heading was turned by the magnetic declination
+  // What was taken from where and what was assumed, one line "what: value" each.
   std::vector<std::string> notes;
 };
 
@@ -44,7 +46,8 @@ struct PictureInput {
 PictureInput ReadPictureInput(const Query& query,
                               const Crs& crs,
                               const std::optional<std::filesystem::path>& dtm,
-                              const PictureInputOptions& options);
+                              const PictureInputOptions& options,
+                              PictureReader& pictures);
 
 // The prior that a picture's facts give; nullopt without a position. `terrain_m` is the terrain's
 // height at the place, if known. Notes and half-ranges are added to `input`.
@@ -55,12 +58,19 @@ std::optional<PosePrior> PriorOf(const PictureFacts& facts,
                                  const PictureInputOptions& options,
                                  PictureInput& input);
 
-// Gives every query of a dataset the camera and, with `priors`, the prior that its picture tells,
-// where it has none.
-// Returns the number of queries that were given something; `notes` names what was assumed.
-std::size_t CompleteFromPictures(Dataset& dataset,
-                                 bool priors,
+// Gives a query of the dataset the camera and, with `prior`, the prior that its picture tells,
+// where it has none, and notes among its assumptions what was made of the picture, and of what a
+// prior of its own leaves open.
+//
+// @param crs  The model's system; found where it is needed and absent.
+PictureInput CompleteFromPicture(const Dataset& dataset,
+                                 bool prior,
                                  const PictureInputOptions& options,
-                                 std::vector<std::string>& notes);
+                                 PictureReader& pictures,
+                                 std::optional<Crs>& crs,
+                                 Query& query);
+
+// The same for every query of a dataset. Returns the number of queries whose picture was asked.
+std::size_t CompleteFromPictures(Dataset& dataset, bool priors, const PictureInputOptions& options);
 
 }  // namespace ridgeline

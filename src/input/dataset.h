@@ -9,6 +9,7 @@
 #include "camera/intrinsics.h"
 #include "camera/pose.h"
 #include "camera/pose_prior.h"
+#include "input/assumption.h"
 
 namespace ridgeline {
 
@@ -23,6 +24,8 @@ struct Query {
   // EXIF orientation by which the picture is turned before use; a picture with a camera of its own
   // is taken as it is stored.
   int orientation = 1;
+  // What was made of the parts of camera and prior that are absent; empty as read.
+  std::vector<Assumption> assumptions;
 };
 
 // A set of queries against one model (docs/dataset.md).
@@ -35,10 +38,14 @@ struct Dataset {
   std::vector<Query> queries;
 };
 
-// Reads and checks a dataset.json; paths become absolute or relative to its folder. Throws InputError
-// naming file and field (e.g. "queries[3].prior.heading_deg") for anything missing, unknown, of a
-// wrong type or out of range, for two queries with one id, and for a dataset without queries.
+// Reads and checks a dataset.json; paths become absolute or relative to its folder. Throws
+// InputError naming file and field (e.g. "queries[3].prior.heading_deg") for anything missing,
+// unknown, of a wrong type or out of range, for two queries with one id, and for a dataset without
+// queries.
 Dataset ReadDataset(const std::filesystem::path& path);
+
+// Index of the query of an id. Throws InputError naming `option` and the nearest id.
+std::size_t FindQuery(const Dataset& dataset, const std::string& id, const std::string& option);
 
 // A prior from JSON text like a dataset's "prior". Throws as above.
 PosePrior ReadPrior(const std::filesystem::path& path);

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
 
-#include "eval/dataset.h"
+#include "input/dataset.h"
 
 namespace ridgeline {
 
@@ -15,5 +15,18 @@ cv::Mat ReadPicture(const std::filesystem::path& path);
 // The picture of a query, turned by the query's orientation. Throws InputError also if its size is
 // not the query's camera's.
 cv::Mat ReadPicture(const Query& query);
+
+// Reads pictures and keeps the last one, so that whoever needs the picture at hand again does not
+// decode it again. For one thread.
+class PictureReader {
+ public:
+  // As ReadPicture. The pixels are shared: not to be written.
+  cv::Mat Read(const std::filesystem::path& path);
+  cv::Mat Read(const Query& query);
+
+ private:
+  std::filesystem::path path_;
+  cv::Mat stored_;
+};
 
 }  // namespace ridgeline

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "eval/picture_input.h"
+#include "input/picture_input.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include "city/crs.h"
 #include "city/read_city.h"
 #include "city/terrain.h"
-#include "eval/read_picture.h"
+#include "input/prior_pose.h"
 
 namespace ridgeline {
 namespace {
@@ -155,6 +155,7 @@ std::optional<PosePrior> PriorOf(const PictureFacts& facts,
   if (facts.direction) {
     std::string words;
     prior.heading_deg = GridHeading(facts, crs, *place, options, words);
+    input.magnetic = facts.direction->magnetic;
     prior.pitch_deg = facts.direction->pitch_deg;
     prior.roll_deg = facts.direction->roll_deg;
     input.notes.push_back("heading: " + words);
@@ -178,9 +179,10 @@ std::optional<PosePrior> PriorOf(const PictureFacts& facts,
 PictureInput ReadPictureInput(const Query& query,
                               const Crs& crs,
                               const std::optional<std::filesystem::path>& dtm,
-                              const PictureInputOptions& options) {
+                              const PictureInputOptions& options,
+                              PictureReader& pictures) {
   PictureInput input;
-  const cv::Mat stored = ReadPicture(query.image);
+  const cv::Mat stored = pictures.Read(query.image);
   const PictureFacts facts = ReadPictureFacts(query.image);
   if (!query.camera) {
     const PictureCamera made = CameraOf(facts, stored.cols, stored.rows);
@@ -208,29 +210,48 @@ PictureInput ReadPictureInput(const Query& query,
   return input;
 }
 
+PictureInput CompleteFromPicture(const Dataset& dataset,
+                                 bool prior,
+                                 const PictureInputOptions& options,
+                                 PictureReader& pictures,
+                                 std::optional<Crs>& crs,
+                                 Query& query) {
+  const bool wants_prior = prior && !query.prior;
+  if (prior && query.prior) {
+    query.assumptions = AssumptionsOf(*query.prior, options.camera_height_m, dataset.file.string());
+  }
+  if (query.camera && !wants_prior) return {};
+  Query asked = query;
+  if (!prior) asked.prior.emplace();  // not to be asked for
+  if (wants_prior && !crs) {
+    CityOptions city;
+    city.project_to = dataset.crs;
+    crs = ReadCityCrs(dataset.model, city);
+  }
+  PictureInput made = ReadPictureInput(asked, crs.value_or(Crs{}), dataset.dtm, options, pictures);
+  if (made.camera) {
+    query.camera = made.camera;
+    query.orientation = made.orientation;
+  }
+  if (made.prior) query.prior = made.prior;
+  for (const std::string& note : made.notes) {
+    query.assumptions.push_back(AssumptionOf(note, query.image.string()));
+  }
+  return made;
+}
+
 std::size_t CompleteFromPictures(Dataset& dataset,
                                  bool priors,
-                                 const PictureInputOptions& options,
-                                 std::vector<std::string>& notes) {
-  std::size_t completed = 0;
+                                 const PictureInputOptions& options) {
+  std::size_t asked = 0;
+  PictureReader pictures;
   std::optional<Crs> crs;
   for (Query& query : dataset.queries) {
-    if (query.camera && (query.prior || !priors)) continue;
-    if (!crs) {
-      CityOptions city;
-      city.project_to = dataset.crs;
-      crs = ReadCityCrs(dataset.model, city);
-    }
-    const PictureInput input = ReadPictureInput(query, *crs, dataset.dtm, options);
-    if (input.camera) {
-      query.camera = input.camera;
-      query.orientation = input.orientation;
-    }
-    if (input.prior) query.prior = input.prior;
-    for (const std::string& note : input.notes) notes.push_back(query.id + ": " + note);
-    ++completed;
+    const bool complete = query.camera && (query.prior || !priors);
+    CompleteFromPicture(dataset, priors, options, pictures, crs, query);
+    if (!complete) ++asked;
   }
-  return completed;
+  return asked;
 }
 
 }  // namespace ridgeline

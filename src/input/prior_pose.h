@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "camera/pose.h"
+#include "camera/pose_prior.h"
+#include "city/terrain.h"
+#include "input/assumption.h"
+
+namespace ridgeline {
+
+// Height of a camera in the hand above the ground that its owner stands on [m], where no option
+// says another (search.camera_height_m does).
+inline constexpr double kCameraHeightM = 1.7;
+
+// The prior as a pose in the world frame: what it leaves open is level, to the north, and
+// `camera_height_m` above the terrain. nullopt: the height is open, and there is no terrain at the
+// place.
+//
+// @param terrain  In the local frame of `origin_in_world`; null: none.
+std::optional<Pose> PoseOfPrior(const PosePrior& prior,
+                                const HeightGrid* terrain,
+                                const Eigen::Vector3d& origin_in_world,
+                                double camera_height_m);
+
+// What is assumed for the parts that a prior leaves open, as the search takes them.
+// @param source  File that the prior is from.
+std::vector<Assumption> AssumptionsOf(const PosePrior& prior,
+                                      double camera_height_m,
+                                      const std::string& source);
+
+}  // namespace ridgeline

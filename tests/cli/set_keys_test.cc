@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every key that --set takes for a localization changes the result, or is refused.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "base/atomic_file.h"
+#include "base/options.h"
+#include "cli/in_process.h"
+#include "localize/localizer_options.h"
+
+namespace ridgeline::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// What makes the keys below a prefix work; the longest prefix counts.
+const std::map<std::string, std::vector<std::string>>& Companions() {
+  static const std::string sampler = "search.method=sampler";
+  static const auto named = [](const std::string& name, int evaluations) {
+    return std::vector<std::string>{sampler,
+                                    "search.sampler.name=" + name,
+                                    "search.evaluations=" + std::to_string(evaluations),
+                                    "score.name=line_energy",
+                                    "search.refine=false"};
+  };
+  static const std::map<std::string, std::vector<std::string>> companions = {
+      {"lines.canny_", {"lines.detector=hough"}},
+      {"score.line_energy.", {"score.name=line_energy"}},
+      {"score.oriented_chamfer.", {"score.name=oriented_chamfer"}},
+      {"score.gradient.", {"score.name=gradient"}},
+      {"score.unexplained.", {"score.name=unexplained"}},
+      {"score.zbuffer_hough.", {"score.name=line_energy_zbuffer"}},
+      {"score.skyline.", {"score.name=skyline_l1"}},
+      {"score.skyline_l1.", {"score.name=skyline_l1"}},
+      {"search.evaluations", named("sobol", 20)},
+      {"search.sampler.", named("sobol", 20)},
+      {"search.sampler.tpe.", named("tpe", 40)},
+      {"search.sampler.gp.", named("gp", 40)},
+      {"search.sampler.cmaes.", named("cmaes", 200)},
+      {"search.sampler.de.", named("de", 200)},
+      {"search.sampler.gp_de.", named("gp_de", 30)},
+      {"search.sampler.nelder_mead.", named("nelder_mead", 60)},
+      {"search.sampler.grid.", named("grid", 300)},
+      {"search.sampler.multi_start.", named("multi_start", 100)},
+      {"search.fit.", {"search.refinement=fit"}}};
+  return companions;
+}
+
+// Values for keys that half as much again, twice and one more, or the opposite do not suit.
+const std::map<std::string, std::string>& Values() {
+  static const std::map<std::string, std::string> values = {
+      {"lines.detector", "edlines"},
+      {"score.name", "line_energy"},
+      {"score.weights", "[1,1,1,1,1,1,1,1,1]"},
+      {"score.evidence.lines.seen_share", "[0.3,0.3,0.3,0.3,0.3]"},
+      {"score.evidence.facades.max_lines", "3"},
+      {"search.method", "sampler"},
+      {"search.refinement", "fit"},
+      {"search.map.max_positions", "5"},
+      {"search.map.tilts", "1"},
+      {"search.map.modes", "1"},
+      {"search.sampler.name", "random"},
+      {"search.sampler.nelder_mead.steps", "[0.3]"},
+      {"search.sampler.nelder_mead.groups", "[\"east_m\",\"*\"]"}};
+  return values;
+}
+
+std::string ValueOf(const std::string& key, const Json& value) {
+  const auto it = Values().find(key);
+  if (it != Values().end()) return it->second;
+  if (value.is_boolean()) return value.get<bool>() ? "false" : "true";
+  if (value.is_number_integer()) return std::to_string(2 * value.get<int>() + 1);
+  if (value.is_number()) {
+    const double number = value.get<double>();
+    return Json(number == 0.0 ? 0.5 : 1.5 * number).dump();
+  }
+  ADD_FAILURE() << key << " needs a value here";
+  return "";
+}
+
+const std::vector<std::string>& CompanionsOf(const std::string& key) {
+  static const std::vector<std::string> none;
+  const std::vector<std::string>* best = &none;
+  for (const auto& [prefix, companions] : Companions()) {  // in order: longer ones later
+    if (key.starts_with(prefix)) best = &companions;
+  }
+  return *best;
+}
+
+class SetKeys : public ::testing::Test {
+ protected:
+  SetKeys() {
+    const Json dataset = Json::parse(ReadFile(Town() / "dataset.json"));
+    const Json& query = dataset["queries"][0];
+    const std::vector<double> p = query["truth"]["position"];
+    Json prior = query["prior"];
+    prior["position"] = {p[0] + 1.0, p[1] - 1.0};  // no height: the terrain's
+    WriteFileAtomically(folder_ / "prior.json", prior.dump());
+  }
+
+  std::string Observe(const std::vector<std::string>& assignments) const {
+    std::vector<std::string> words = {"localize",
+                                      "--json",
+                                      "--dataset",
+                                      (Town() / "dataset.json").string(),
+                                      "--query",
+                                      "street_000",
+                                      "--prior",
+                                      (folder_ / "prior.json").string()};
+    for (const char* small : {"search.east_m=4", "search.north_m=4", "search.heading_deg=6"}) {
+      words.insert(words.end(), {"--set", small});
+    }
+    for (const std::string& assignment : assignments) {
+      words.insert(words.end(), {"--set", assignment});
+    }
+    const Outcome outcome = RunHere(words);
+    EXPECT_NE(outcome.exit_code, 1) << outcome.text;
+    // What is said of the ranges is no result.
+    Json json = Json::parse(outcome.text, nullptr, false);
+    if (json.is_object()) json.erase("assumptions");
+    return std::to_string(outcome.exit_code) + (json.is_discarded() ? outcome.text : json.dump());
+  }
+
+  const fs::path folder_ = Scratch("set keys");
+};
+
+TEST_F(SetKeys, EachChangesTheResultOrIsRefused) {
+  LocalizerOptions options;
+  const Json all = Json::parse(OptionsToJson([&](OptionVisitor& v) { options.Visit(v); }));
+  std::map<std::vector<std::string>, std::string> before;
+  const std::function<void(const Json&, const std::string&)> walk = [&](const Json& json,
+                                                                        const std::string& path) {
+    if (json.is_object()) {
+      for (const auto& [name, value] : json.items()) {
+        walk(value, path.empty() ? name : path + "." + name);
+      }
+      return;
+    }
+    std::vector<std::string> assignments = CompanionsOf(path);
+    const auto [it, added] = before.emplace(assignments, "");
+    if (added) it->second = Observe(assignments);
+    assignments.push_back(path + "=" + ValueOf(path, json));
+    EXPECT_NE(Observe(assignments), it->second) << assignments.back();
+  };
+  walk(all, "");
+}
+
+}  // namespace
+}  // namespace ridgeline::testing
