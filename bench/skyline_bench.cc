@@ -7,9 +7,9 @@
 #include <opencv2/core/utility.hpp>
 
 #include "base/random.h"
-#include "localize/skyline_tracker.h"
 #include "score/sky_score.h"
 #include "support/synthetic_city.h"
+#include "track/skyline_tracker.h"
 
 namespace ridgeline {
 namespace {

@@ -14,10 +14,10 @@
 #include "base/error.h"
 #include "city/read_city.h"
 #include "input/dataset.h"
-#include "localize/skyline_tracker.h"
 #include "score/sky_score.h"
 #include "synth/detail_mesh.h"
 #include "synth/town.h"
+#include "track/skyline_tracker.h"
 
 namespace ridgeline {
 namespace {

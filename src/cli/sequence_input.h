@@ -12,8 +12,8 @@
 #include "city/city_model.h"
 #include "city/terrain.h"
 #include "cli/frame_source.h"
-#include "localize/sensors.h"
 #include "projection/scene.h"
+#include "track/sensors.h"
 
 namespace ridgeline {
 

@@ -13,11 +13,11 @@
 #include "cli/skyline_output.h"
 #include "cli/skyline_report.h"
 #include "cli/version.h"
-#include "localize/skyline_tracker.h"
 #include "report/html_report.h"
 #include "report/overlay.h"
 #include "report/overlay_layers.h"
 #include "report/picture_file.h"
+#include "track/skyline_tracker.h"
 
 namespace ridgeline {
 namespace {

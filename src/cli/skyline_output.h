@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "camera/pose.h"
-#include "localize/skyline_tracker.h"
+#include "track/skyline_tracker.h"
 
 namespace ridgeline {
 

@@ -52,7 +52,7 @@ struct WalkOptions {
 // True poses of the frames, in the town's local frame.
 std::vector<Pose> WalkPoses(const Town& town, const WalkOptions& options);
 
-// The instruments at these poses as a CSV (localize/sensors.h): WGS 84 position, altitude, magnetic
+// The instruments at these poses as a CSV (track/sensors.h): WGS 84 position, altitude, magnetic
 // compass, pitch and roll, acceleration of a phone held in landscape, air pressure.
 std::string WalkSensorsCsv(const Town& town,
                            const std::vector<Pose>& cam_from_local,

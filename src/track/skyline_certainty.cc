@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "localize/skyline_certainty.h"
+#include "track/skyline_certainty.h"
 
 #include <Eigen/LU>
 #include <algorithm>

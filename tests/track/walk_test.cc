@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "base/atomic_file.h"
-#include "localize/sensors.h"
+#include "track/sensors.h"
 
 namespace ridgeline {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "localize/skyline_matcher.h"
+#include "track/skyline_matcher.h"
 
 #include <algorithm>
 #include <array>
@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "base/error.h"
-#include "localize/downhill_simplex.h"
-#include "localize/skyline_certainty.h"
-#include "localize/skyline_shift.h"
+#include "track/downhill_simplex.h"
+#include "track/skyline_certainty.h"
+#include "track/skyline_shift.h"
 
 namespace ridgeline {
 namespace {

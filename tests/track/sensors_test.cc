@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "localize/sensors.h"
+#include "track/sensors.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

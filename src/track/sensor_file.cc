@@ -8,7 +8,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
-#include "localize/sensors.h"
+#include "track/sensors.h"
 
 namespace ridgeline {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "localize/skyline_matcher.h"
+#include "track/skyline_matcher.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 
 #include "base/error.h"
 #include "base/random.h"
-#include "localize/skyline_shift.h"
 #include "score/sky_score.h"
 #include "support/synthetic_city.h"
+#include "track/skyline_shift.h"
 
 namespace ridgeline {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "localize/skyline_tracker.h"
+#include "track/skyline_tracker.h"
 
 #include <chrono>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "localize/downhill_simplex.h"
+#include "track/downhill_simplex.h"
 
 #include <algorithm>
 #include <cmath>

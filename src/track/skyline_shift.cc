@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "localize/skyline_shift.h"
+#include "track/skyline_shift.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "localize/sensors.h"
+#include "track/sensors.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,11 +7,11 @@
 
 #include "base/options.h"
 #include "camera/intrinsics.h"
-#include "localize/skyline_matcher.h"
 #include "projection/scene.h"
 #include "score/skyline_l1.h"
 #include "skyline/canny_skyline.h"
 #include "skyline/skyline_extractor.h"
+#include "track/skyline_matcher.h"
 
 namespace ridgeline {
 
