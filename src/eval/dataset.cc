@@ -10,7 +10,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
-#include "city/web_file.h"
+#include "city/format/web_file.h"
 
 namespace ridgeline {
 namespace {
@@ -117,10 +117,11 @@ Json ParseFile(const std::filesystem::path& path) {
     const std::size_t at = e.byte > 0 ? e.byte - 1 : 0;
     std::string near = text.substr(std::min(at, text.size()), kShown);
     near.erase(std::min(near.find('\n'), near.size()));
-    throw InputError(path.string(),
-                     "byte " + std::to_string(e.byte),
-                     near.empty() ? "a file that ends early" : "\"" + near + "\", which is not JSON",
-                     "valid JSON (there is no NaN in it)");
+    throw InputError(
+        path.string(),
+        "byte " + std::to_string(e.byte),
+        near.empty() ? "a file that ends early" : "\"" + near + "\", which is not JSON",
+        "valid JSON (there is no NaN in it)");
   } catch (const Json::out_of_range&) {
     throw InputError(path.string(), "", "a number that is too large", "numbers below 1e308");
   }
@@ -143,7 +144,8 @@ PosePrior PriorOf(const Node& node) {
   const Node position = node.At("position");
   const std::vector<double> values = position.Numbers();
   if (values.size() != 2 && values.size() != 3) {
-    position.Fail(std::to_string(values.size()) + " numbers", "[east, north] or [east, north, height]");
+    position.Fail(std::to_string(values.size()) + " numbers",
+                  "[east, north] or [east, north, height]");
   }
   prior.position_in_world = {values[0], values[1]};
   if (values.size() == 3) prior.height_in_world = values[2];
