@@ -12,8 +12,8 @@
 #include <string>
 
 #include "city/city_text.h"
+#include "city/format/read_source.h"
 #include "city/read_city.h"
-#include "city/read_source.h"
 
 namespace ridgeline {
 namespace {

@@ -21,7 +21,7 @@
 #include <string>
 
 #include "city/city_info.h"
-#include "city/read_source.h"
+#include "city/format/read_source.h"
 #include "city/xml_count.h"
 
 namespace {

@@ -15,7 +15,6 @@
 #include "city/terrain.h"
 #include "projection/scene.h"
 #include "projection/surface_panorama.h"
-#include "projection/visibility_cache.h"
 #include "projection/zbuffer_hough.h"
 #include "support/source_folder.h"
 #include "support/synthetic_city.h"
@@ -153,9 +152,8 @@ BENCHMARK(DepthBuffer320x240Munich)->Unit(benchmark::kMillisecond);
 
 void OrientationAtKnownPositionMunich(benchmark::State& state) {
   const World& world = MunichWorld();
-  VisibilityCache cache(*world.scene, world.position, world.LookingAhead(), {});
+  const VisibleSet visible = world.scene->VisibleFrom(world.position, world.LookingAhead());
   std::vector<ProjectedSegment> segments;
-  cache.Near(world.position);
   double heading_deg = 0.0;
   for (auto _ : state) {
     heading_deg = heading_deg > 40.0 ? 0.0 : heading_deg + 1.0;
@@ -163,7 +161,7 @@ void OrientationAtKnownPositionMunich(benchmark::State& state) {
                                             world.angles.pitch_deg,
                                             world.angles.roll_deg}),
                     world.position};
-    ProjectPieces(*cache.Near(world.position), kCamera, pose, segments);
+    ProjectPieces(visible, kCamera, pose, segments);
     benchmark::DoNotOptimize(segments.data());
   }
   state.counters["segments"] = static_cast<double>(segments.size());

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <set>
 
-#include "city/build_model.h"
 #include "city/crs.h"
-#include "city/shell_check.h"
+#include "city/mesh/build_model.h"
+#include "city/mesh/shell_check.h"
 
 namespace ridgeline {
 namespace {

@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "city/point_welder.h"
+#include "city/mesh/point_welder.h"
 #include "city/terrain.h"
 
 namespace ridgeline {

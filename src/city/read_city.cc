@@ -10,10 +10,10 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "city/build_model.h"
-#include "city/city_store.h"
 #include "city/crs.h"
-#include "city/read_source.h"
+#include "city/format/read_source.h"
+#include "city/mesh/build_model.h"
+#include "city/store/city_store.h"
 
 namespace ridgeline {
 namespace fs = std::filesystem;

@@ -11,7 +11,7 @@
 
 #include "base/error.h"
 #include "city/crs.h"
-#include "city/web_file.h"
+#include "city/format/web_file.h"
 
 namespace ridgeline {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "city/city_store.h"
+#include "city/store/city_store.h"
 #include "cli/command.h"
 #include "cli/progress.h"
 

@@ -13,7 +13,7 @@
 #include "base/error.h"
 #include "city/city_info.h"
 #include "city/crs.h"
-#include "city/read_source.h"
+#include "city/format/read_source.h"
 #include "cli/command.h"
 
 namespace ridgeline {

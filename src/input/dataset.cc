@@ -10,7 +10,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
-#include "city/web_file.h"
+#include "city/format/web_file.h"
 
 namespace ridgeline {
 namespace {

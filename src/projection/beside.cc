@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "projection/mesh_edges.h"
+#include "projection/triangle_edges.h"
 
 namespace ridgeline {
 namespace {

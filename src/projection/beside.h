@@ -9,7 +9,7 @@
 #include "city/city_model.h"
 #include "projection/edge_set.h"
 #include "projection/ray_scene.h"
-#include "projection/scene.h"
+#include "projection/visible_set.h"
 
 namespace ridgeline {
 

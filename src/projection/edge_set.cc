@@ -57,8 +57,8 @@ Eigen::Vector3d TriangleNormal(const CityModel& model, std::uint32_t triangle) {
 
 // Whether the third corner of the triangle at `side` lies above the plane of another face.
 bool IsConcave(const CityModel& model,
-               const MeshEdge& edge,
-               const MeshSide& side,
+               const TriangleEdge& edge,
+               const TriangleSide& side,
                const Eigen::Vector3d& other_normal) {
   return other_normal.dot(model.vertices[side.opposite] - model.vertices[edge.v0]) > 0.0;
 }
@@ -114,7 +114,7 @@ Facing FacingOf(const SceneEdge& edge, const Eigen::Vector3f& eye) {
           edge.normal1.dot(from_edge) > -kFacingTolerance};
 }
 
-EdgeSet::EdgeSet(const CityModel& model, const MeshEdges& mesh)
+EdgeSet::EdgeSet(const CityModel& model, const TriangleEdges& mesh)
     : closed_(ClosedBuildings(model, mesh)), matched_(mesh.edges.size(), 0) {
   AddFeatureEdges(model, mesh);
   AddWeakFolds(model, mesh);
@@ -123,7 +123,7 @@ EdgeSet::EdgeSet(const CityModel& model, const MeshEdges& mesh)
   matched_ = {};
 }
 
-void EdgeSet::AddFeatureEdges(const CityModel& model, const MeshEdges& mesh) {
+void EdgeSet::AddFeatureEdges(const CityModel& model, const TriangleEdges& mesh) {
   const VertexIndex vertices(model);
   const auto is_closed = [&](std::uint32_t surface) {
     return surface != kNoSurface && closed_[model.surfaces[surface].building];
@@ -138,12 +138,13 @@ void EdgeSet::AddFeatureEdges(const CityModel& model, const MeshEdges& mesh) {
         model.surfaces[feature.surface0].building == model.surfaces[feature.surface1].building;
     const std::uint32_t a = vertices.Find(feature.a);
     const std::uint32_t b = vertices.Find(feature.b);
-    const MeshEdge* const found = a == kNoSurface || b == kNoSurface ? nullptr : mesh.Find(a, b);
+    const TriangleEdge* const found =
+        a == kNoSurface || b == kNoSurface ? nullptr : mesh.Find(a, b);
     if (found != nullptr) {
       matched_[static_cast<std::size_t>(found - mesh.edges.data())] = 1;
       // The triangle's own plane, where the polygon is not quite planar.
       for (std::uint32_t k = found->first; k < found->first + found->count; ++k) {
-        const MeshSide& side = mesh.sides[k];
+        const TriangleSide& side = mesh.sides[k];
         const std::uint32_t surface = model.triangles[side.triangle].surface;
         const Eigen::Vector3d normal = TriangleNormal(model, side.triangle);
         if (normal.isZero()) continue;
@@ -160,13 +161,13 @@ void EdgeSet::AddFeatureEdges(const CityModel& model, const MeshEdges& mesh) {
   }
 }
 
-void EdgeSet::AddWeakFolds(const CityModel& model, const MeshEdges& mesh) {
+void EdgeSet::AddWeakFolds(const CityModel& model, const TriangleEdges& mesh) {
   const FeatureEdgesOfSurfaces feature_edges(model);
   for (std::size_t i = 0; i < mesh.edges.size(); ++i) {
-    const MeshEdge& edge = mesh.edges[i];
+    const TriangleEdge& edge = mesh.edges[i];
     if (matched_[i] || edge.count != 2) continue;
-    const MeshSide& side0 = mesh.sides[edge.first];
-    const MeshSide& side1 = mesh.sides[edge.first + 1];
+    const TriangleSide& side0 = mesh.sides[edge.first];
+    const TriangleSide& side1 = mesh.sides[edge.first + 1];
     if (side0.forward == side1.forward) continue;
     const Eigen::Vector3d normal0 = TriangleNormal(model, side0.triangle);
     const Eigen::Vector3d normal1 = TriangleNormal(model, side1.triangle);

@@ -9,8 +9,8 @@
 
 #include "city/city_model.h"
 #include "projection/bvh_build.h"
-#include "projection/mesh_edges.h"
 #include "projection/sector_test.h"
+#include "projection/triangle_edges.h"
 
 namespace ridgeline {
 
@@ -41,7 +41,7 @@ Facing FacingOf(const SceneEdge& edge, const Eigen::Vector3f& eye);
 // outside a sector as a whole.
 class EdgeSet {
  public:
-  EdgeSet(const CityModel& model, const MeshEdges& mesh);
+  EdgeSet(const CityModel& model, const TriangleEdges& mesh);
 
   // Calls visit(edge, a, b, distance) for edges that may be seen, with their ends relative to the
   // eye and their distance from it [m]: within the distance and the sector, long enough at their
@@ -67,8 +67,8 @@ class EdgeSet {
  private:
   // Whether the faces of an edge allow it to be seen.
   static bool MayFace(const SceneEdge& edge, const Eigen::Vector3f& eye);
-  void AddFeatureEdges(const CityModel& model, const MeshEdges& mesh);
-  void AddWeakFolds(const CityModel& model, const MeshEdges& mesh);
+  void AddFeatureEdges(const CityModel& model, const TriangleEdges& mesh);
+  void AddWeakFolds(const CityModel& model, const TriangleEdges& mesh);
   void BuildTree();
 
   struct Cluster {

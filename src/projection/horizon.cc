@@ -22,12 +22,12 @@ Eigen::Vector3d Normal(const CityModel& model, std::uint32_t triangle) {
 }
 
 // Diagonals of plane polygons are never higher than the polygon's border.
-bool IsFlat(const CityModel& model, const MeshEdges& mesh, const MeshEdge& edge) {
+bool IsFlat(const CityModel& model, const TriangleEdges& mesh, const TriangleEdge& edge) {
   if (edge.count != 2) return false;
   const Eigen::Vector3d n0 = Normal(model, mesh.sides[edge.first].triangle);
   const Eigen::Vector3d n1 = Normal(model, mesh.sides[edge.first + 1].triangle);
-  const MeshSide& side0 = mesh.sides[edge.first];
-  const MeshSide& side1 = mesh.sides[edge.first + 1];
+  const TriangleSide& side0 = mesh.sides[edge.first];
+  const TriangleSide& side1 = mesh.sides[edge.first + 1];
   return side0.forward != side1.forward && n0.dot(n1) > 1.0 - 1e-10;
 }
 
@@ -130,7 +130,7 @@ class Horizon::Envelope {
 };
 
 Horizon::Horizon(const CityModel& model,
-                 const MeshEdges& mesh,
+                 const TriangleEdges& mesh,
                  const TerrainMesh& terrain,
                  double step_rad) {
   turn_ = std::max(1, static_cast<int>(std::ceil(kTurn / step_rad - 1e-9)));
@@ -139,7 +139,7 @@ Horizon::Horizon(const CityModel& model,
     sines_.push_back(static_cast<float>(std::sin(k * step_)));
     cosines_.push_back(static_cast<float>(std::cos(k * step_)));
   }
-  for (const MeshEdge& edge : mesh.edges) {
+  for (const TriangleEdge& edge : mesh.edges) {
     if (IsFlat(model, mesh, edge)) continue;
     edges_.push_back(
         {model.vertices[edge.v0].cast<float>(), model.vertices[edge.v1].cast<float>()});

@@ -8,9 +8,9 @@
 
 #include "city/city_model.h"
 #include "projection/bvh_build.h"
-#include "projection/mesh_edges.h"
 #include "projection/sector_test.h"
 #include "projection/terrain_mesh.h"
+#include "projection/triangle_edges.h"
 
 namespace ridgeline {
 
@@ -21,7 +21,7 @@ namespace ridgeline {
 class Horizon {
  public:
   Horizon(const CityModel& model,
-          const MeshEdges& mesh,
+          const TriangleEdges& mesh,
           const TerrainMesh& terrain,
           double step_rad);
 

@@ -31,11 +31,11 @@ bool IsPlaneAndConvex(const CityModel& model, const Quadrangle& corners) {
 
 // The quadrangle of the two triangles at an edge inside one surface.
 std::optional<Quadrangle> QuadrangleAt(const CityModel& model,
-                                       const MeshEdges& mesh,
-                                       const MeshEdge& edge) {
+                                       const TriangleEdges& mesh,
+                                       const TriangleEdge& edge) {
   if (edge.count != 2) return std::nullopt;
-  const MeshSide& side0 = mesh.sides[edge.first];
-  const MeshSide& side1 = mesh.sides[edge.first + 1];
+  const TriangleSide& side0 = mesh.sides[edge.first];
+  const TriangleSide& side1 = mesh.sides[edge.first + 1];
   if (side0.forward == side1.forward ||
       model.triangles[side0.triangle].surface != model.triangles[side1.triangle].surface) {
     return std::nullopt;
@@ -50,15 +50,15 @@ std::optional<Quadrangle> QuadrangleAt(const CityModel& model,
 }  // namespace
 
 std::vector<Occluder> ModelOccluders(const CityModel& model,
-                                     const MeshEdges& mesh,
+                                     const TriangleEdges& mesh,
                                      double tolerance_m) {
   const auto tolerance = static_cast<float>(tolerance_m);
   const auto vertex = [&](std::uint32_t i) -> Eigen::Vector3f {
     return model.vertices[i].cast<float>();
   };
   // Long edges first: they are the diagonals.
-  std::vector<std::pair<double, const MeshEdge*>> edges;
-  for (const MeshEdge& edge : mesh.edges) {
+  std::vector<std::pair<double, const TriangleEdge*>> edges;
+  for (const TriangleEdge& edge : mesh.edges) {
     edges.emplace_back((model.vertices[edge.v0] - model.vertices[edge.v1]).squaredNorm(), &edge);
   }
   std::stable_sort(

@@ -4,16 +4,16 @@
 #include <vector>
 
 #include "city/city_model.h"
-#include "projection/mesh_edges.h"
 #include "projection/occluder_bvh.h"
 #include "projection/terrain_mesh.h"
+#include "projection/triangle_edges.h"
 
 namespace ridgeline {
 
 // The model's triangles; pairs of one plane that make a convex quadrangle are one, so that a wall
 // is one occluder.
 std::vector<Occluder> ModelOccluders(const CityModel& model,
-                                     const MeshEdges& mesh,
+                                     const TriangleEdges& mesh,
                                      double tolerance_m);
 
 // The terrain's triangles, lowered.

@@ -9,11 +9,11 @@
 #include "projection/beside.h"
 #include "projection/edge_set.h"
 #include "projection/horizon.h"
-#include "projection/mesh_edges.h"
 #include "projection/occluder_bvh.h"
 #include "projection/occluders.h"
 #include "projection/ray_scene.h"
 #include "projection/terrain_mesh.h"
+#include "projection/triangle_edges.h"
 
 namespace ridgeline {
 namespace {
@@ -58,7 +58,7 @@ void ProjectionOptions::Validate() const {
 struct Scene::Impl {
   Impl(const CityModel& city,
        const TerrainMesh& terrain,
-       const MeshEdges& mesh,
+       const TriangleEdges& mesh,
        const ProjectionOptions& projection)
       : model(city),
         options(projection),
@@ -88,7 +88,7 @@ Scene::Scene(const CityModel& model, const HeightGrid* dtm, const ProjectionOpti
   options.Validate();
   const TerrainMesh terrain =
       dtm == nullptr ? TerrainMesh{} : MeshTerrain(*dtm, options.terrain_error_m);
-  impl_ = std::make_unique<Impl>(model, terrain, FindMeshEdges(model), options);
+  impl_ = std::make_unique<Impl>(model, terrain, FindTriangleEdges(model), options);
 }
 
 Scene::~Scene() = default;
@@ -96,10 +96,8 @@ Scene::Scene(Scene&&) noexcept = default;
 
 VisibleSet Scene::VisibleFrom(const Eigen::Vector3d& position, const Sector& sector) const {
   const Impl& impl = *impl_;
-  const SectorTest sector_test(sector.center,
-                               sector.half_width,
-                               sector.lowest_elevation,
-                               sector.highest_elevation);
+  const SectorTest sector_test(
+      sector.center, sector.half_width, sector.lowest_elevation, sector.highest_elevation);
   const Eigen::Vector3f eye = position.cast<float>();
   const auto min_angle = static_cast<float>(impl.options.min_piece_mrad * kMilli);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "city/city_store.h"
+#include "city/store/city_store.h"
 
 #include <gdal_priv.h>
 #include <gmock/gmock.h>

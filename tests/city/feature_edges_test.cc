@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "city/feature_edges.h"
+#include "city/mesh/feature_edges.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "city/read_citygml.h"
+#include "city/format/read_citygml.h"
 
 #include <gtest/gtest.h>
 

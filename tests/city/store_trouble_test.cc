@@ -10,8 +10,8 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "city/city_store.h"
 #include "city/city_text.h"
+#include "city/store/city_store.h"
 
 namespace ridgeline::testing {
 namespace {

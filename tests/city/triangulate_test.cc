@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "city/triangulate.h"
+#include "city/mesh/triangulate.h"
 
 #include <gtest/gtest.h>
 

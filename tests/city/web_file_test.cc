@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Models on a web server that behaves, and that does not.
-#include "city/web_file.h"
+#include "city/format/web_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
