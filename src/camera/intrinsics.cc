@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <opencv2/imgproc.hpp>
 
 #include "base/error.h"
+#include "camera/focal_length.h"
 
 namespace ridgeline {
 namespace {
@@ -72,6 +74,34 @@ Eigen::Vector2d Displacement(const Distortion& d, const Eigen::Vector2d& u) {
           u.y() * radial + 2.0 * d.p2 * xy + d.p1 * (r2 + 2.0 * u.y() * u.y())};
 }
 
+std::string Rounded(const char* format, double value) {
+  char text[40];
+  std::snprintf(text, sizeof(text), format, value);
+  return text;
+}
+
+std::string OddFocal(double focal, int width, int height) {
+  return Rounded("%.6g", focal) + ", " +
+         Rounded("%.3g", DiagonalViewDeg(focal, width, height)) + " deg across " +
+         std::to_string(width) + " x " + std::to_string(height) + " px";
+}
+
+// What a number that is no focal length in pixels is likely to be.
+std::string MeantFocal(double focal, int width, int height) {
+  constexpr double kFilmDiagonalMm = 43.266615305567875;
+  constexpr double kMostPart = 5.0;  // of the longer side
+  const double part_px = focal * std::max(width, height);
+  if (focal < kMostPart && IsPlausibleFocal(part_px, width, height)) {
+    return "; as a part of the longer side it is " + Rounded("%.1f px", part_px);
+  }
+  const double film_px = focal * std::hypot(width, height) / kFilmDiagonalMm;
+  if (DiagonalViewDeg(focal, width, height) > 90.0) {
+    if (!IsPlausibleFocal(film_px, width, height)) return "";
+    return "; millimetres? As a 35 mm equivalent it is " + Rounded("%.1f px", film_px);
+  }
+  return "; of a larger picture, or in micrometres?";
+}
+
 }  // namespace
 
 PinholeCamera PinholeCamera::Scaled(double scale) const {
@@ -109,6 +139,13 @@ void CameraIntrinsics::Validate(const std::string& file, const std::string& fiel
                        field + ".params[" + std::to_string(i) + "]",
                        std::to_string(params[i]),
                        is_focal ? "a focal length > 0" : "a finite number");
+    }
+    if (is_focal && !IsPlausibleFocal(params[i], width, height)) {
+      throw InputError(file,
+                       field + ".params[" + std::to_string(i) + "]",
+                       OddFocal(params[i], width, height),
+                       "a focal length in pixels, a field of view of 5 to 150 deg" +
+                           MeantFocal(params[i], width, height));
     }
   }
 }

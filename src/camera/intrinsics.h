@@ -43,7 +43,8 @@ struct CameraIntrinsics {
   std::vector<double> params;
 
   // Throws InputError(file, field + ".model" etc.) for an unknown model, a wrong number of
-  // parameters, non-finite values, or sizes and focal lengths that are not positive.
+  // parameters, non-finite values, sizes that are not positive, or a focal length whose field of
+  // view is not one of 5 to 150 degrees across the diagonal (with what it may mean, such as mm).
   void Validate(const std::string& file, const std::string& field) const;
   bool HasDistortion() const;
   // The linear part.

@@ -24,6 +24,17 @@ Eigen::Matrix3d RotationZ(double rad) {
 // about the same axis.
 constexpr double kGimbalCosine = 3e-7;
 
+// Photo axes are x right, y up, z backward; the camera's x right, y down, z forward.
+Eigen::Quaterniond CamFromWorldOfPhoto(const Eigen::Matrix3d& world_from_photo) {
+  const Eigen::Matrix3d cam_from_photo = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
+  return Eigen::Quaterniond(cam_from_photo * world_from_photo.transpose()).normalized();
+}
+
+Eigen::Matrix3d WorldFromPhoto(const Eigen::Quaterniond& cam_from_world) {
+  const Eigen::Matrix3d cam_from_photo = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
+  return cam_from_world.normalized().toRotationMatrix().transpose() * cam_from_photo;
+}
+
 }  // namespace
 
 Eigen::Quaterniond CamFromWorld(const ViewAngles& angles) {
@@ -54,20 +65,37 @@ ViewAngles ViewAnglesOf(const Eigen::Quaterniond& cam_from_world) {
 }
 
 Eigen::Quaterniond CamFromWorld(const OmegaPhiKappa& angles) {
-  const Eigen::Matrix3d world_from_photo = RotationZ(angles.kappa_deg * kRadPerDeg) *
-                                           RotationY(angles.phi_deg * kRadPerDeg) *
-                                           RotationX(angles.omega_deg * kRadPerDeg);
-  const Eigen::Matrix3d cam_from_photo = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
-  return Eigen::Quaterniond(cam_from_photo * world_from_photo.transpose()).normalized();
+  return CamFromWorldOfPhoto(RotationX(angles.omega_deg * kRadPerDeg) *
+                             RotationY(angles.phi_deg * kRadPerDeg) *
+                             RotationZ(angles.kappa_deg * kRadPerDeg));
 }
 
 OmegaPhiKappa OmegaPhiKappaOf(const Eigen::Quaterniond& cam_from_world) {
-  const Eigen::Matrix3d cam_from_photo = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
-  const Eigen::Matrix3d r =
-      cam_from_world.normalized().toRotationMatrix().transpose() * cam_from_photo;
+  const Eigen::Matrix3d r = WorldFromPhoto(cam_from_world);
+  const double cos_phi = std::hypot(r(0, 0), r(0, 1));
   OmegaPhiKappa angles;
-  angles.phi_deg = std::atan2(-r(2, 0), std::hypot(r(2, 1), r(2, 2))) / kRadPerDeg;
-  if (std::hypot(r(2, 1), r(2, 2)) < kGimbalCosine) {
+  angles.phi_deg = std::atan2(r(0, 2), cos_phi) / kRadPerDeg;
+  if (cos_phi < kGimbalCosine) {
+    angles.kappa_deg = std::atan2(r(1, 0), r(1, 1)) / kRadPerDeg;
+    return angles;
+  }
+  angles.omega_deg = std::atan2(-r(1, 2), r(2, 2)) / kRadPerDeg;
+  angles.kappa_deg = std::atan2(-r(0, 1), r(0, 0)) / kRadPerDeg;
+  return angles;
+}
+
+Eigen::Quaterniond CamFromWorld(const LoeperOmegaPhiKappa& angles) {
+  return CamFromWorldOfPhoto(RotationZ(angles.kappa_deg * kRadPerDeg) *
+                             RotationY(angles.phi_deg * kRadPerDeg) *
+                             RotationX(angles.omega_deg * kRadPerDeg));
+}
+
+LoeperOmegaPhiKappa LoeperOmegaPhiKappaOf(const Eigen::Quaterniond& cam_from_world) {
+  const Eigen::Matrix3d r = WorldFromPhoto(cam_from_world);
+  const double cos_phi = std::hypot(r(2, 1), r(2, 2));
+  LoeperOmegaPhiKappa angles;
+  angles.phi_deg = std::atan2(-r(2, 0), cos_phi) / kRadPerDeg;
+  if (cos_phi < kGimbalCosine) {
     angles.kappa_deg = std::atan2(-r(0, 1), r(1, 1)) / kRadPerDeg;
     return angles;
   }

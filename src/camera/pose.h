@@ -34,8 +34,9 @@ Eigen::Quaterniond CamFromWorld(const ViewAngles& angles);
 // heading is that of the image's right side minus 90 degrees, and roll is 0.
 ViewAngles ViewAnglesOf(const Eigen::Quaterniond& cam_from_world);
 
-// Photogrammetric angles: world_from_cam = Rz(kappa) Ry(phi) Rx(omega) with camera axes x right,
-// y up, z backward (Loeper et al., section 4.3). omega = 90, phi = 0 is level; heading = -kappa.
+// Photogrammetric angles as Pix4D, Metashape, ODM and BINGO write them: world_from_photo =
+// Rx(omega) Ry(phi) Rz(kappa), photo axes x right, y up, z backward. All zero: straight down, the
+// top of the picture to the north. A level camera of heading h has omega = 90, phi = -h, kappa = 0.
 struct OmegaPhiKappa {
   double omega_deg = 0.0;
   double phi_deg = 0.0;
@@ -43,8 +44,21 @@ struct OmegaPhiKappa {
 };
 
 Eigen::Quaterniond CamFromWorld(const OmegaPhiKappa& angles);
-// phi in [-90, 90], omega and kappa in (-180, 180].
+// phi in [-90, 90], omega and kappa in (-180, 180]; omega = 0 where |phi| = 90.
 OmegaPhiKappa OmegaPhiKappaOf(const Eigen::Quaterniond& cam_from_world);
+
+// The angles of Loeper et al., section 4.3, which have the same names and another order:
+// world_from_photo = Rz(kappa) Ry(phi) Rx(omega), photo axes as above. omega = 90, phi = 0 is
+// level; heading = -kappa.
+struct LoeperOmegaPhiKappa {
+  double omega_deg = 0.0;
+  double phi_deg = 0.0;
+  double kappa_deg = 0.0;
+};
+
+Eigen::Quaterniond CamFromWorld(const LoeperOmegaPhiKappa& angles);
+// phi in [-90, 90], omega and kappa in (-180, 180]; omega = 0 where |phi| = 90.
+LoeperOmegaPhiKappa LoeperOmegaPhiKappaOf(const Eigen::Quaterniond& cam_from_world);
 
 // Angle of the relative rotation [deg], in [0, 180].
 double RotationDistanceDeg(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b);

@@ -23,6 +23,7 @@ Json JsonOf(const Pose& pose, const CityModel& model) {
   const Eigen::Quaterniond& q = pose.cam_from_world;
   const ViewAngles view = ViewAnglesOf(q);
   const OmegaPhiKappa photo = OmegaPhiKappaOf(q);
+  const LoeperOmegaPhiKappa loeper = LoeperOmegaPhiKappaOf(q);
   const Pose relative{q, pose.center_in_world - model.origin_in_world};
   Json json;
   json["position"] = JsonOf(pose.center_in_world);
@@ -31,6 +32,8 @@ Json JsonOf(const Pose& pose, const CityModel& model) {
   json["pitch_deg"] = Fine(view.pitch_deg);
   json["roll_deg"] = Fine(view.roll_deg);
   json["omega_phi_kappa_deg"] = {Fine(photo.omega_deg), Fine(photo.phi_deg), Fine(photo.kappa_deg)};
+  json["loeper_omega_phi_kappa_deg"] = {
+      Fine(loeper.omega_deg), Fine(loeper.phi_deg), Fine(loeper.kappa_deg)};
   json["colmap"] = {{"origin", JsonOf(model.origin_in_world)},
                     {"translation", JsonOf(relative.ColmapTranslation())}};
   if (model.crs.horizontal_epsg != 0) {

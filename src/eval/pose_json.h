@@ -11,9 +11,10 @@
 namespace ridgeline {
 
 // A localization as JSON (pose.json): status and reason; the pose as position with
-// cam_from_world_wxyz, heading / pitch / roll, omega / phi / kappa, COLMAP's translation relative
-// to the model's origin, and latitude / longitude; energy, confidence, 95 % region, modes; what was
-// assumed of the input. The same bytes for the same result: no times.
+// cam_from_world_wxyz, heading / pitch / roll, omega / phi / kappa of photogrammetry and of Loeper
+// et al., COLMAP's translation relative to the model's origin, and latitude / longitude; energy,
+// confidence, 95 % region, modes; what was assumed of the input. The same bytes for the same
+// result: no times.
 std::string PoseJson(const std::string& picture,
                      const Localization& localization,
                      const CityModel& model,

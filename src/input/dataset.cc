@@ -35,10 +35,17 @@ class Node {
     const std::vector<std::string> known(keys.begin(), keys.end());
     for (const auto& [key, value] : json_.items()) {
       if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+      const std::string in_degrees = key.substr(0, key.rfind("_rad")) + "_deg";
+      if (key.ends_with("_rad") &&
+          std::find(known.begin(), known.end(), in_degrees) != known.end()) {
+        throw InputError(file_, Join(key), "radians", "\"" + in_degrees + "\", in degrees");
+      }
       throw InputError(
           file_, Join(key), "an unknown key", "e.g. \"" + NearestName(key, known) + "\"");
     }
   }
+
+  bool Has(const std::string& key) const { return json_.is_object() && json_.contains(key); }
 
   std::optional<Node> Find(const std::string& key) const {
     const auto it = json_.find(key);
@@ -128,6 +135,9 @@ Json ParseFile(const std::filesystem::path& path) {
 }
 
 CameraIntrinsics CameraOf(const Node& node) {
+  if (node.Has("position") && !node.Has("params")) {
+    node.Fail("a prior", "a camera: model, width, height, params (were the two files exchanged?)");
+  }
   node.AllowOnly({"model", "width", "height", "params"});
   CameraIntrinsics camera;
   camera.model = node.At("model").Text();
@@ -139,6 +149,9 @@ CameraIntrinsics CameraOf(const Node& node) {
 }
 
 PosePrior PriorOf(const Node& node) {
+  if (node.Has("params") && !node.Has("position")) {
+    node.Fail("a camera", "a prior: position, heading_deg, ... (were the two files exchanged?)");
+  }
   node.AllowOnly({"position", "heading_deg", "pitch_deg", "roll_deg"});
   PosePrior prior;
   const Node position = node.At("position");

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "camera/focal_length.h"
 #include "camera/intrinsics.h"
 #include "camera/pose.h"
 #include "camera/pose_prior.h"
@@ -24,6 +25,9 @@ struct Query {
   // EXIF orientation by which the picture is turned before use; a picture with a camera of its own
   // is taken as it is stored.
   int orientation = 1;
+  // What else the focal length of a camera made from the picture's words may be, the camera's own
+  // first (camera/focal_length.h); empty for a camera that was given.
+  std::vector<FocalHypothesis> focal_lengths;
   // What was made of the parts of camera and prior that are absent; empty as read.
   std::vector<Assumption> assumptions;
 };

@@ -23,6 +23,8 @@ constexpr double kMostErrorM = 40.0;
 // A barometer's drift, and take-off elsewhere than at the height of the terrain below [m].
 constexpr double kTakeoffErrorM = 10.0;
 constexpr double kAltitudeErrorM = 15.0;
+// A receiver's altitude among houses.
+constexpr double kReceiverHeightErrorM = 30.0;
 // How level a picture by hand is [deg], and how far a gimbal's angles are off.
 constexpr double kHandPitchDeg = 10.0;
 constexpr double kHandRollDeg = 4.0;
@@ -69,35 +71,130 @@ double GridHeading(const PictureFacts& facts,
   return heading;
 }
 
+// The picture's altitude as a height of the model, above sea level or above the ellipsoid; what was
+// done to it is noted.
+std::optional<double> AltitudeInModel(const PictureFacts& facts,
+                                      const Crs& crs,
+                                      const std::optional<double>& undulation_m,
+                                      PictureInput& input) {
+  if (!facts.altitude_m) return std::nullopt;
+  const bool model_above_ellipsoid = HasEllipsoidalHeights(crs);
+  if (facts.altitude_above_ellipsoid == model_above_ellipsoid) return facts.altitude_m;
+  if (!undulation_m) {
+    input.notes.push_back(
+        "altitude: above the ellipsoid, taken as above sea level, since there is no geoid grid");
+    return facts.altitude_m;
+  }
+  const double altitude_m =
+      *facts.altitude_m + (model_above_ellipsoid ? *undulation_m : -*undulation_m);
+  input.notes.push_back(Format("altitude: %.1f m above %s = %.1f m above %s (EGM96: %.1f m)",
+                               *facts.altitude_m,
+                               model_above_ellipsoid ? "sea level" : "the ellipsoid",
+                               altitude_m,
+                               model_above_ellipsoid ? "the ellipsoid" : "sea level",
+                               *undulation_m));
+  return altitude_m;
+}
+
+// Why an altitude [m] agrees with somebody who stands on the terrain; empty if it does not. Some
+// receivers write heights above the ellipsoid and call them above sea level.
+std::string OnGround(double altitude_m,
+                     double terrain_m,
+                     const std::optional<double>& undulation_m) {
+  const double above = altitude_m - terrain_m;
+  if (std::abs(above) <= kReceiverHeightErrorM) {
+    return "; the altitude of the receiver is too rough to be used";
+  }
+  if (undulation_m && std::abs(above - *undulation_m) <= kReceiverHeightErrorM) {
+    return Format(
+        "; the altitude %.1f m was meant above the ellipsoid, as it seems (%.1f m above "
+        "sea level), and is too rough to be used",
+        altitude_m,
+        altitude_m - *undulation_m);
+  }
+  if (above < 0.0) {
+    return Format(
+        "; the altitude %.1f m is not used, being %.0f m below the terrain", altitude_m, -above);
+  }
+  return "";
+}
+
+// An altitude that nobody on the ground has, or that an aircraft tells.
+void SetHeightInTheAir(double altitude_m,
+                       double terrain_m,
+                       const std::optional<double>& undulation_m,
+                       bool from_aircraft,
+                       PosePrior& prior,
+                       PictureInput& input) {
+  // Both meanings of the altitude lie in the range.
+  input.height_m =
+      std::max(kReceiverHeightErrorM, std::abs(undulation_m.value_or(0.0)) + kTakeoffErrorM);
+  const double above = altitude_m - terrain_m;
+  if (above <= 0.0) {
+    prior.height_in_world = terrain_m + input.height_m;
+    input.notes.push_back(Format(
+        "height: up to %.0f m above the terrain, since the picture is an aircraft's; its altitude "
+        "%.1f m is not used, being %.0f m below the terrain",
+        2.0 * input.height_m,
+        altitude_m,
+        -above));
+    return;
+  }
+  prior.height_in_world = altitude_m;
+  input.notes.push_back(
+      Format("height: %.1f m, the picture's altitude, +- %.0f m: %s %.0f m above the terrain",
+             altitude_m,
+             input.height_m,
+             from_aircraft ? "an aircraft's picture," : "it seems to be taken from the air,",
+             above));
+}
+
 void SetHeight(const PictureFacts& facts,
+               const Crs& crs,
                const std::optional<double>& terrain_m,
                const PictureInputOptions& options,
                PosePrior& prior,
                PictureInput& input) {
-  if (facts.altitude_above_takeoff_m && terrain_m) {
-    prior.height_in_world = *terrain_m + *facts.altitude_above_takeoff_m;
+  if (terrain_m && (facts.height_above_ground_m || facts.altitude_above_takeoff_m)) {
+    const bool ground = facts.height_above_ground_m.has_value();
+    const double above = ground ? *facts.height_above_ground_m : *facts.altitude_above_takeoff_m;
+    prior.height_in_world = *terrain_m + above;
     input.height_m = kTakeoffErrorM;
-    input.notes.push_back(
-        Format("height: %.1f m = terrain below + %.1f m above take-off, which is assumed to have "
-               "been as high as that terrain",
-               *prior.height_in_world,
-               *facts.altitude_above_takeoff_m));
+    input.notes.push_back(Format(
+        "height: %.1f m = terrain below + %.1f m above %s",
+        *prior.height_in_world,
+        above,
+        ground ? "the ground" : "take-off, which is assumed to have been as high as that terrain"));
     return;
   }
-  if (terrain_m || !facts.altitude_m) {
-    input.notes.push_back(
-        Format("height: terrain + %.1f m assumed%s",
-               options.camera_height_m,
-               facts.altitude_m ? "; the altitude of the receiver is too rough to be used" : ""));
+  const std::optional<double> undulation_m =
+      GeoidUndulation(facts.place->latitude_deg, facts.place->longitude_deg);
+  const std::optional<double> altitude_m = AltitudeInModel(facts, crs, undulation_m, input);
+  if (terrain_m && altitude_m) {
+    const std::string on_ground = OnGround(*altitude_m, *terrain_m, undulation_m);
+    if (on_ground.empty() || facts.from_aircraft) {
+      SetHeightInTheAir(*altitude_m, *terrain_m, undulation_m, facts.from_aircraft, prior, input);
+      return;
+    }
+    input.notes.push_back(Format("height: terrain + %.1f m assumed", options.camera_height_m) +
+                          on_ground);
     return;
   }
-  prior.height_in_world = facts.altitude_m;
+  if (!altitude_m) {
+    input.notes.push_back(Format(
+        "height: terrain + %.1f m assumed%s",
+        options.camera_height_m,
+        facts.from_aircraft ? ", though an aircraft took the picture: it tells no height that "
+                              "can be used (--prior gives one)"
+                            : ""));
+    return;
+  }
+  prior.height_in_world = altitude_m;
   input.height_m = kAltitudeErrorM;
   input.notes.push_back(
-      Format("height: %.1f m, the picture's altitude %s, taken as the model's height for lack of a "
+      Format("height: %.1f m, the picture's altitude, taken as the model's height for lack of a "
              "terrain model (--dtm)",
-             *facts.altitude_m,
-             facts.altitude_above_ellipsoid ? "above the ellipsoid" : "above sea level"));
+             *altitude_m));
 }
 
 // The terrain's height at a place; nullopt where the raster has none.
@@ -113,6 +210,12 @@ std::optional<double> TerrainAt(const std::filesystem::path& dtm,
   return ReadDtm(dtm, frame, local, local, kMarginM, warnings).HeightAt(local);
 }
 
+Crs CrsOf(const Dataset& dataset) {
+  CityOptions city;
+  city.project_to = dataset.crs;
+  return ReadCityCrs(dataset.model, city);
+}
+
 }  // namespace
 
 std::optional<PosePrior> PriorOf(const PictureFacts& facts,
@@ -121,6 +224,7 @@ std::optional<PosePrior> PriorOf(const PictureFacts& facts,
                                  const std::optional<double>& terrain_m,
                                  const PictureInputOptions& options,
                                  PictureInput& input) {
+  input.notes.insert(input.notes.end(), facts.doubts.begin(), facts.doubts.end());
   if (!facts.place) return std::nullopt;
   if (crs.horizontal_epsg == 0) {
     throw InputError(
@@ -151,7 +255,7 @@ std::optional<PosePrior> PriorOf(const PictureFacts& facts,
                                facts.place->source.c_str(),
                                place->x(),
                                place->y()));
-  SetHeight(facts, terrain_m, options, prior, input);
+  SetHeight(facts, crs, terrain_m, options, prior, input);
   if (facts.direction) {
     std::string words;
     prior.heading_deg = GridHeading(facts, crs, *place, options, words);
@@ -166,7 +270,7 @@ std::optional<PosePrior> PriorOf(const PictureFacts& facts,
   input.pitch_deg = known_tilt ? kGimbalErrorDeg : kHandPitchDeg;
   input.roll_deg = known_tilt ? kGimbalErrorDeg : kHandRollDeg;
   if (known_tilt) {
-    input.notes.push_back(Format("pitch %.1f, roll %.1f deg (%s)",
+    input.notes.push_back(Format("pitch, roll: %.1f, %.1f deg (%s)",
                                  *prior.pitch_deg,
                                  prior.roll_deg.value_or(0.0),
                                  facts.direction->source.c_str()));
@@ -188,9 +292,11 @@ PictureInput ReadPictureInput(const Query& query,
     const PictureCamera made = CameraOf(facts, stored.cols, stored.rows);
     input.camera = made.camera;
     input.orientation = facts.orientation;
+    input.focal_lengths = made.focal_lengths;
     input.notes.push_back(Format("camera: f = %.0f px, ", made.camera.params.front()) +
                           made.source + "; no distortion assumed" +
                           (facts.orientation != 1 ? "; turned upright as its EXIF says" : ""));
+    input.notes.insert(input.notes.end(), made.notes.begin(), made.notes.end());
   }
   if (query.prior) return input;
   std::optional<double> terrain;
@@ -218,20 +324,21 @@ PictureInput CompleteFromPicture(const Dataset& dataset,
                                  Query& query) {
   const bool wants_prior = prior && !query.prior;
   if (prior && query.prior) {
+    if (IsInDegrees(*query.prior)) {
+      if (!crs) crs = CrsOf(dataset);
+      CheckPosition(*query.prior, *crs, dataset.file.string());
+    }
     query.assumptions = AssumptionsOf(*query.prior, options.camera_height_m, dataset.file.string());
   }
   if (query.camera && !wants_prior) return {};
   Query asked = query;
   if (!prior) asked.prior.emplace();  // not to be asked for
-  if (wants_prior && !crs) {
-    CityOptions city;
-    city.project_to = dataset.crs;
-    crs = ReadCityCrs(dataset.model, city);
-  }
+  if (wants_prior && !crs) crs = CrsOf(dataset);
   PictureInput made = ReadPictureInput(asked, crs.value_or(Crs{}), dataset.dtm, options, pictures);
   if (made.camera) {
     query.camera = made.camera;
     query.orientation = made.orientation;
+    query.focal_lengths = made.focal_lengths;
   }
   if (made.prior) query.prior = made.prior;
   for (const std::string& note : made.notes) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "camera/focal_length.h"
 #include "camera/picture_facts.h"
 #include "city/city_model.h"
 #include "input/dataset.h"
@@ -26,6 +27,8 @@ struct PictureInput {
   std::optional<CameraIntrinsics> camera;  // absent: the query had one
   std::optional<PosePrior> prior;          // absent: the query had one, or there is no position
   int orientation = 1;                     // by which the picture is to be turned
+  // What else `camera`'s focal length may be, its own first (FocalLength); empty without `camera`.
+  std::vector<FocalHypothesis> focal_lengths;
   // How far the prior may be off, as half-ranges of a search.
   double horizontal_m = 0.0;
   double height_m = 0.0;
@@ -37,9 +40,11 @@ struct PictureInput {
 };
 
 // Camera and prior that a query lacks, from its picture's EXIF and XMP. Directions are turned from
-// true or magnetic north to grid north. Heights: above take-off, where the picture says it
-// (drones), over the terrain at its place; else the terrain + camera height, since a receiver's
-// height is off by tens of metres; else, without a terrain model, the altitude as it is.
+// true or magnetic north to grid north. Heights: above the ground or above take-off, where the
+// picture says it (drones), over the terrain at its place; else the terrain + camera height, since
+// a receiver's height is off by tens of metres. An altitude more than 30 m above the terrain, also
+// if it was meant above the ellipsoid, or an aircraft's, contradicts that: it is taken with a wide
+// range. Without a terrain model the altitude is taken as it is.
 //
 // @param crs  Projected system of the model.
 // Throws InputError for a picture that cannot be read or does not lie in the system's reach.

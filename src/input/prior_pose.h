@@ -8,6 +8,7 @@
 
 #include "camera/pose.h"
 #include "camera/pose_prior.h"
+#include "city/city_model.h"
 #include "city/terrain.h"
 #include "input/assumption.h"
 
@@ -32,5 +33,14 @@ std::optional<Pose> PoseOfPrior(const PosePrior& prior,
 std::vector<Assumption> AssumptionsOf(const PosePrior& prior,
                                       double camera_height_m,
                                       const std::string& source);
+
+// Whether a position can only be a latitude and a longitude: no projected system's numbers are as
+// small.
+bool IsInDegrees(const PosePrior& prior);
+
+// Throws InputError if a prior's position is in degrees where the system has metres, with what it
+// would be in the system.
+// @param source  File that the prior is from.
+void CheckPosition(const PosePrior& prior, const Crs& crs, const std::string& source);
 
 }  // namespace ridgeline

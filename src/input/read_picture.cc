@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "input/read_picture.h"
 
+#include <algorithm>
+#include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <string_view>
@@ -29,6 +31,45 @@ bool IsCutOff(std::string_view jpeg) {
   return at >= jpeg.size() || jpeg.find("\xff\xd9", at) == std::string_view::npos;
 }
 
+// What a file that does not decode is, where its beginning tells.
+std::string KindOf(std::string_view bytes) {
+  if (bytes.starts_with("\xff\x0a") || bytes.starts_with(std::string_view("\0\0\0\x0cJXL ", 8))) {
+    return "a JPEG XL picture";
+  }
+  if (bytes.size() < 12 || bytes.substr(4, 4) != "ftyp") return "a file that does not decode";
+  const std::string_view brand = bytes.substr(8, 4);  // ISO/IEC 23008-12, annex B
+  for (const char* heic : {"heic", "heix", "heim", "heis", "hevc", "hevx", "mif1", "msf1"}) {
+    if (brand == heic) return "a HEIC picture";
+  }
+  if (brand == "avif" || brand == "avis") return "an AVIF picture";
+  if (brand == "crx ") return "a CR3 raw picture";
+  return "a video or another file of MP4's kind";
+}
+
+// Cameras put 10, 12 or 14 bits into a container of 16: brought to its whole range.
+cv::Mat InWholeRange(const cv::Mat& picture) {
+  if (picture.depth() != CV_16U) return picture;
+  const int colours = picture.channels() == 2 || picture.channels() == 4 ? picture.channels() - 1
+                                                                         : picture.channels();
+  double most = 0.0;
+  for (int channel = 0; channel < colours; ++channel) {
+    cv::Mat plane;
+    cv::extractChannel(picture, plane, channel);
+    double largest = 0.0;
+    cv::minMaxLoc(plane, nullptr, &largest);
+    most = std::max(most, largest);
+  }
+  constexpr double kWhole = 65535.0;
+  for (const int bits : {8, 10, 12, 14}) {
+    const double range = (1 << bits) - 1;
+    if (most > range) continue;
+    cv::Mat whole;
+    picture.convertTo(whole, CV_16U, kWhole / range);
+    return whole;
+  }
+  return picture;
+}
+
 std::string SizeText(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height) + " px";
 }
@@ -54,13 +95,16 @@ cv::Mat ReadPicture(const std::filesystem::path& path) {
     picture = cv::imdecode(view, cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
   }
   if (picture.empty()) {
-    throw InputError(
-        path.string(), "", "a file that does not decode", "a picture (JPEG, PNG, TIFF)");
+    throw InputError(path.string(),
+                     "",
+                     KindOf(bytes),
+                     "a picture in JPEG, PNG, TIFF or WebP (a converter that keeps the EXIF makes "
+                     "one)");
   }
   if (picture.depth() != CV_8U && picture.depth() != CV_16U) {
     throw InputError(path.string(), "", "pixels of another type", "8 or 16 bit integers");
   }
-  return picture;
+  return InWholeRange(picture);
 }
 
 namespace {

@@ -9,7 +9,9 @@
 namespace ridgeline {
 
 // A picture as ridgeline reads all pictures: 8 or 16 bit, as stored, EXIF orientation does not turn
-// it. Throws InputError if it does not decode or ends early, which OpenCV fills up with grey.
+// it. Of 16 bits, where the largest value shows that 8, 10, 12 or 14 are used, those are brought to
+// the whole range. Throws InputError if it does not decode (HEIC and others are named) or ends
+// early, which OpenCV fills up with grey.
 cv::Mat ReadPicture(const std::filesystem::path& path);
 
 // The picture of a query, turned by the query's orientation. Throws InputError also if its size is

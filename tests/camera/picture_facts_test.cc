@@ -3,22 +3,20 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
 #include <opencv2/core.hpp>
 
-#include "base/atomic_file.h"
-#include "base/error.h"
 #include "camera/picture_camera.h"
 #include "camera/pose.h"
 #include "support/exif_writer.h"
+#include "support/xmp_writer.h"
 
 namespace ridgeline {
 namespace {
 
 using testing::ExifWriter;
+using testing::XmpPacket;
 using Directory = testing::ExifWriter::Directory;
 using ::testing::HasSubstr;
 
@@ -45,17 +43,9 @@ ExifWriter Phone(bool big_endian = false) {
 
 PictureFacts FactsOfXmp(const std::string& xmp) { return FactsOf({}, ParseXmp(xmp)); }
 
-std::string Packet(const std::string& attributes) {
-  return "<?xpacket begin=\"\xEF\xBB\xBF\" id=\"W5M0MpCehiHzreSzNTczkc9d\"?>\n"
-         "<x:xmpmeta xmlns:x=\"adobe:ns:meta/\"><rdf:RDF "
-         "xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\"><rdf:Description "
-         "rdf:about=\"\" " +
-         attributes + "></rdf:Description></rdf:RDF></x:xmpmeta>\n<?xpacket end=\"w\"?>";
-}
-
 // As a DJI aircraft writes it: signs before all numbers, the longitude's name misspelt.
 std::string Dji(const std::string& yaw, const std::string& pitch, const std::string& roll) {
-  return Packet(
+  return XmpPacket(
       "xmlns:drone-dji=\"http://www.dji.com/drone-dji/1.0/\" "
       "drone-dji:AbsoluteAltitude=\"+556.27\" drone-dji:RelativeAltitude=\"+38.10\" "
       "drone-dji:GpsLatitude=\"48.148912\" drone-dji:GpsLongtitude=\"11.567891\" "
@@ -66,9 +56,9 @@ std::string Dji(const std::string& yaw, const std::string& pitch, const std::str
 }
 
 std::string Pix4d(double yaw, double pitch, double roll) {
-  return Packet("xmlns:Camera=\"http://pix4d.com/camera/1.0/\" Camera:Yaw=\"" +
-                std::to_string(yaw) + "\" Camera:Pitch=\"" + std::to_string(pitch) +
-                "\" Camera:Roll=\"" + std::to_string(roll) + "\"");
+  return XmpPacket("xmlns:Camera=\"http://pix4d.com/camera/1.0/\" Camera:Yaw=\"" +
+                   std::to_string(yaw) + "\" Camera:Pitch=\"" + std::to_string(pitch) +
+                   "\" Camera:Roll=\"" + std::to_string(roll) + "\"");
 }
 
 Eigen::Quaterniond RotationOf(const PictureFacts& facts) {
@@ -178,7 +168,8 @@ TEST(PictureFacts, ReadsXmpElements) {
   EXPECT_NEAR(std::abs(facts.direction->roll_deg.value()), 180.0, 1e-6);
 }
 
-// Pix4D support, "How are yaw, pitch, roll defined?": its three examples.
+// Pix4D support, "How are yaw, pitch, roll defined?": its three examples, zero written as 360 once,
+// since three zeros are taken as never written.
 TEST(PictureFacts, ReadsPix4dsExamples) {
   const auto top_and_axis = [](const PictureFacts& facts) {
     const Eigen::Matrix3d world_from_cam = RotationOf(facts).toRotationMatrix().transpose();
@@ -188,7 +179,7 @@ TEST(PictureFacts, ReadsPix4dsExamples) {
   const Eigen::Vector3d north(0, 1, 0);
   const Eigen::Vector3d east(1, 0, 0);
   const Eigen::Vector3d up(0, 0, 1);
-  const auto [top0, axis0] = top_and_axis(FactsOfXmp(Pix4d(0, 0, 0)));
+  const auto [top0, axis0] = top_and_axis(FactsOfXmp(Pix4d(360, 0, 0)));
   EXPECT_TRUE(top0.isApprox(north, 1e-9)) << top0.transpose();
   EXPECT_TRUE(axis0.isApprox(-up, 1e-9));
   const auto [top1, axis1] = top_and_axis(FactsOfXmp(Pix4d(0, 90, 0)));
@@ -212,12 +203,12 @@ TEST(PictureFacts, DjisPitchPlus90IsPix4ds) {
 
 TEST(PictureFacts, ReadsGooglesHeading) {
   const PictureFacts facts =
-      FactsOfXmp(Packet("xmlns:GPano=\"http://ns.google.com/photos/1.0/panorama/\" "
-                        "GPano:PoseHeadingDegrees=\"350.5\" GPano:PosePitchDegrees=\"2\" "
-                        "GPano:PoseRollDegrees=\"-1\""));
-  EXPECT_DOUBLE_EQ(facts.direction->heading_deg, 350.5);
-  EXPECT_DOUBLE_EQ(facts.direction->pitch_deg.value(), 2.0);
-  EXPECT_DOUBLE_EQ(facts.direction->roll_deg.value(), -1.0);
+      FactsOfXmp(XmpPacket("xmlns:GPano=\"http://ns.google.com/photos/1.0/panorama/\" "
+                           "GPano:PoseHeadingDegrees=\"350.5\" GPano:PosePitchDegrees=\"2\" "
+                           "GPano:PoseRollDegrees=\"-1\""));
+  EXPECT_NEAR(facts.direction->heading_deg, 350.5, 1e-9);
+  EXPECT_NEAR(facts.direction->pitch_deg.value(), 2.0, 1e-9);
+  EXPECT_NEAR(facts.direction->roll_deg.value(), -1.0, 1e-9);
 }
 
 TEST(PictureFacts, XmpGoesBeforeExif) {
@@ -233,51 +224,6 @@ TEST(PictureFacts, BrokenXmpIsNoError) {
   for (std::size_t size = 0; size < whole.size(); size += 7) FactsOfXmp(whole.substr(0, size));
   EXPECT_FALSE(FactsOfXmp("not XML at all").direction.has_value());
   EXPECT_FALSE(FactsOfXmp(Dji("nan", "-20.00", "+0.00")).direction.has_value());
-}
-
-class PictureFile : public ::testing::Test {
- protected:
-  ~PictureFile() override { std::filesystem::remove(path_); }
-  PictureFacts Read(const std::string& bytes) {
-    WriteFileAtomically(path_, bytes);
-    return ReadPictureFacts(path_);
-  }
-  std::filesystem::path path_ = std::filesystem::path(::testing::TempDir()) /
-                                ("ridgeline_picture_" + std::to_string(::getpid()));
-};
-
-TEST_F(PictureFile, FindsItsBlocksInJpegPngAndTiff) {
-  const std::string exif = Phone().Block();
-  const std::string xmp = Dji("+10.00", "-20.00", "+0.00");
-  const std::string scan = "\xff\xda rest";
-  EXPECT_NEAR(
-      Read(testing::JpegWith("\xff\xd8" + scan, exif, xmp)).direction->heading_deg, 10, 1e-9);
-  EXPECT_EQ(Read(testing::JpegWith("\xff\xd8" + scan, exif, "")).camera, "iPhone 12");
-  EXPECT_EQ(Read(testing::JpegWith("\xff\xd8" + scan, "", "")).camera, "");
-  EXPECT_EQ(Read(exif).camera, "iPhone 12");
-  const auto chunk = [](const std::string& type, const std::string& body) {
-    std::string size(4, '\0');
-    for (std::size_t i = 0; i < 4; ++i) size[3 - i] = static_cast<char>(body.size() >> (8 * i));
-    return size + type + body + "crc_";
-  };
-  const std::string png = "\x89PNG\r\n\x1a\n" + chunk("eXIf", exif) +
-                          chunk("iTXt", std::string("XML:com.adobe.xmp\0\0\0\0\0", 22) + xmp) +
-                          chunk("IEND", "");
-  EXPECT_EQ(Read(png).camera, "iPhone 12");
-  EXPECT_NEAR(Read(png).direction->heading_deg, 10, 1e-9);
-  for (std::size_t size = 0; size < png.size(); size += 5) Read(png.substr(0, size));
-}
-
-TEST_F(PictureFile, RefusesPanoramas) {
-  const std::string xmp = Packet(
-      "xmlns:GPano=\"http://ns.google.com/photos/1.0/panorama/\" "
-      "GPano:ProjectionType=\"equirectangular\"");
-  try {
-    Read(testing::JpegWith("\xff\xd8\xff\xda", "", xmp));
-    FAIL();
-  } catch (const InputError& e) {
-    EXPECT_THAT(e.what(), HasSubstr("GPano:ProjectionType: got an equirectangular panorama"));
-  }
 }
 
 TEST(PictureCamera, FocalLengthByTheDiagonal) {
@@ -315,10 +261,10 @@ TEST(PictureCamera, OtherSourcesOfTheFocalLength) {
   EXPECT_NEAR(CameraOf(facts, 3648, 5472).camera.params[0], 5472.0 * 8.8 / 13.2, 1e-9);
   // The plane's resolution: 5472 px / 13.2 mm, the picture resized to a half.
   facts.plane_px_per_mm = 5472.0 / 13.2;
-  facts.plane_width_px = 5472.0;
+  facts.recorded = PictureFacts::Size{5472.0, 3648.0};
   facts.camera = "unknown";
   EXPECT_NEAR(CameraOf(facts, 2736, 1824).camera.params[0], 2736.0 * 8.8 / 13.2, 1e-9);
-  facts.focal_px = 3666.666;
+  facts.calibration = PictureFacts::Calibration{3666.666, std::nullopt};
   EXPECT_EQ(CameraOf(facts, 5472, 3648).camera.params[0], 3666.666);
 }
 

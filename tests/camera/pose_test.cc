@@ -10,8 +10,12 @@
 namespace ridgeline {
 namespace {
 
-Eigen::Vector3d RightOf(const Eigen::Quaterniond& q) { return q.conjugate() * Eigen::Vector3d::UnitX(); }
-Eigen::Vector3d DownOf(const Eigen::Quaterniond& q) { return q.conjugate() * Eigen::Vector3d::UnitY(); }
+Eigen::Vector3d RightOf(const Eigen::Quaterniond& q) {
+  return q.conjugate() * Eigen::Vector3d::UnitX();
+}
+Eigen::Vector3d DownOf(const Eigen::Quaterniond& q) {
+  return q.conjugate() * Eigen::Vector3d::UnitY();
+}
 Eigen::Vector3d ForwardOf(const Eigen::Quaterniond& q) {
   return q.conjugate() * Eigen::Vector3d::UnitZ();
 }
@@ -32,15 +36,15 @@ TEST(ViewAngles, PitchIsUpAndRollIsClockwiseFromBehind) {
   EXPECT_TRUE(ForwardOf(CamFromWorld(ViewAngles{0.0, 30.0, 0.0}))
                   .isApprox(Eigen::Vector3d(0, c, s), 1e-12));
   // Clockwise from behind: the camera's right side goes down.
-  EXPECT_TRUE(RightOf(CamFromWorld(ViewAngles{0.0, 0.0, 30.0}))
-                  .isApprox(Eigen::Vector3d(c, 0, -s), 1e-12));
+  EXPECT_TRUE(
+      RightOf(CamFromWorld(ViewAngles{0.0, 0.0, 30.0})).isApprox(Eigen::Vector3d(c, 0, -s), 1e-12));
 }
 
 TEST(ViewAngles, RoundTripOverRandomPoses) {
   Random random(1, HashText("ViewAngles"));
   for (int i = 0; i < 1000; ++i) {
-    const ViewAngles in{random.Uniform(0.0, 360.0), random.Uniform(-89.0, 89.0),
-                        random.Uniform(-179.0, 179.0)};
+    const ViewAngles in{
+        random.Uniform(0.0, 360.0), random.Uniform(-89.0, 89.0), random.Uniform(-179.0, 179.0)};
     const ViewAngles out = ViewAnglesOf(CamFromWorld(in));
     EXPECT_NEAR(HeadingDifferenceDeg(out.heading_deg, in.heading_deg), 0.0, 1e-9);
     EXPECT_NEAR(out.pitch_deg, in.pitch_deg, 1e-9);
@@ -57,9 +61,19 @@ TEST(ViewAngles, LookingStraightUpOrDownKeepsTheRotation) {
   }
 }
 
-TEST(OmegaPhiKappa, LevelIsOmega90AndHeadingIsMinusKappa) {
-  for (const double heading : {0.0, 30.0, 90.0, 200.0, 345.0}) {
+TEST(OmegaPhiKappa, LevelIsOmega90AndHeadingIsMinusPhi) {
+  for (const double heading : {0.0, 30.0, 75.0, 345.0}) {
     const OmegaPhiKappa angles = OmegaPhiKappaOf(CamFromWorld(ViewAngles{heading, 0.0, 0.0}));
+    EXPECT_NEAR(angles.omega_deg, 90.0, 1e-9);
+    EXPECT_NEAR(HeadingDifferenceDeg(-angles.phi_deg, heading), 0.0, 1e-9);
+    EXPECT_NEAR(angles.kappa_deg, 0.0, 1e-9);
+  }
+}
+
+TEST(LoeperOmegaPhiKappa, LevelIsOmega90AndHeadingIsMinusKappa) {
+  for (const double heading : {0.0, 30.0, 90.0, 200.0, 345.0}) {
+    const LoeperOmegaPhiKappa angles =
+        LoeperOmegaPhiKappaOf(CamFromWorld(ViewAngles{heading, 0.0, 0.0}));
     EXPECT_NEAR(angles.omega_deg, 90.0, 1e-9);
     EXPECT_NEAR(angles.phi_deg, 0.0, 1e-9);
     EXPECT_NEAR(HeadingDifferenceDeg(-angles.kappa_deg, heading), 0.0, 1e-9);
@@ -74,26 +88,6 @@ TEST(OmegaPhiKappa, NadirPictureIsAllZero) {
   EXPECT_NEAR(angles.kappa_deg, 0.0, 1e-6);
 }
 
-TEST(OmegaPhiKappa, MatrixIsTheTextbookProduct) {
-  // world_from_photo = Rz(kappa) Ry(phi) Rx(omega), written out (e.g. Kraus, Photogrammetry, with
-  // this order of rotations).
-  const double w = 0.3;
-  const double p = -0.2;
-  const double k = 1.1;
-  Eigen::Matrix3d r;
-  r << std::cos(k) * std::cos(p), std::cos(k) * std::sin(p) * std::sin(w) - std::sin(k) * std::cos(w),
-      std::cos(k) * std::sin(p) * std::cos(w) + std::sin(k) * std::sin(w), std::sin(k) * std::cos(p),
-      std::sin(k) * std::sin(p) * std::sin(w) + std::cos(k) * std::cos(w),
-      std::sin(k) * std::sin(p) * std::cos(w) - std::cos(k) * std::sin(w), -std::sin(p),
-      std::cos(p) * std::sin(w), std::cos(p) * std::cos(w);
-  const double deg = 180.0 / M_PI;
-  const Eigen::Quaterniond q = CamFromWorld(OmegaPhiKappa{w * deg, p * deg, k * deg});
-  // The photo's backward axis is -forward; its up axis is -down.
-  EXPECT_TRUE(RightOf(q).isApprox(r.col(0), 1e-12));
-  EXPECT_TRUE(DownOf(q).isApprox(-r.col(1), 1e-12));
-  EXPECT_TRUE(ForwardOf(q).isApprox(-r.col(2), 1e-12));
-}
-
 TEST(OmegaPhiKappa, RoundTripOverRandomRotations) {
   Random random(2, HashText("OmegaPhiKappa"));
   for (int i = 0; i < 1000; ++i) {
@@ -101,6 +95,19 @@ TEST(OmegaPhiKappa, RoundTripOverRandomRotations) {
         Eigen::Quaterniond(random.Normal(), random.Normal(), random.Normal(), random.Normal())
             .normalized();
     EXPECT_NEAR(RotationDistanceDeg(CamFromWorld(OmegaPhiKappaOf(q)), q), 0.0, 1e-6);
+    EXPECT_NEAR(RotationDistanceDeg(CamFromWorld(LoeperOmegaPhiKappaOf(q)), q), 0.0, 1e-6);
+  }
+}
+
+// Where two of the angles turn about the same axis.
+TEST(OmegaPhiKappa, RoundTripAtTheGimbalLock) {
+  for (const double phi : {90.0, -90.0}) {
+    const Eigen::Quaterniond q = CamFromWorld(OmegaPhiKappa{20.0, phi, 35.0});
+    EXPECT_EQ(OmegaPhiKappaOf(q).omega_deg, 0.0);
+    EXPECT_NEAR(RotationDistanceDeg(CamFromWorld(OmegaPhiKappaOf(q)), q), 0.0, 1e-6);
+    const Eigen::Quaterniond l = CamFromWorld(LoeperOmegaPhiKappa{20.0, phi, 35.0});
+    EXPECT_EQ(LoeperOmegaPhiKappaOf(l).omega_deg, 0.0);
+    EXPECT_NEAR(RotationDistanceDeg(CamFromWorld(LoeperOmegaPhiKappaOf(l)), l), 0.0, 1e-6);
   }
 }
 

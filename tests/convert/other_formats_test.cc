@@ -195,7 +195,7 @@ TEST_F(Convert, TablesOfOmegaPhiKappa) {
   Write("metashape.txt",
         "# Cameras (2)\n"
         "#Label,X/Easting,Y/Northing,Z/Altitude,Omega,Phi,Kappa,X_est\n"
-        "IMG_1.JPG,691000.5,5336000.25,520.125,90.0,0.0,-45.0,1\n"
+        "IMG_1.JPG,691000.5,5336000.25,520.125,90.0,-45.0,0.0,1\n"
         "\"IMG 2.JPG\",691001,5336001,521,0,0,0,2\n");
   const Dataset a = ReadInput(folder_ / "metashape.txt", "", {});
   ASSERT_EQ(a.queries.size(), 2u);
@@ -206,14 +206,34 @@ TEST_F(Convert, TablesOfOmegaPhiKappa) {
   EXPECT_EQ(a.queries[1].image, "IMG 2.JPG");
   EXPECT_NEAR(ViewAnglesOf(a.queries[1].truth->cam_from_world).pitch_deg, -90.0, 1e-12);
   Write("pix4d.txt",
-        "imageName X Y Z Omega Phi Kappa\nIMG_1.JPG 691000.5 5336000.25 520.125 90 0 -45\n");
+        "imageName X Y Z Omega Phi Kappa\nIMG_1.JPG 691000.5 5336000.25 520.125 90 -45 0\n");
   const Dataset b = ReadInput(folder_ / "pix4d.txt", "", {});
   EXPECT_EQ(b.queries[0].truth->cam_from_world.coeffs(),
             a.queries[0].truth->cam_from_world.coeffs());
-  Write("german.csv", "Name;E;N;H;Kappa;Phi;Omega\r\nIMG_1;1;2;3;-45;0;90\r\n");
+  Write("german.csv", "Name;E;N;H;Kappa;Phi;Omega\r\nIMG_1;1;2;3;0;-45;90\r\n");
   const Dataset c = ReadInput(folder_ / "german.csv", "", {});
   EXPECT_EQ(c.queries[0].truth->cam_from_world.coeffs(),
             a.queries[0].truth->cam_from_world.coeffs());
+}
+
+// Tilted by 30 deg from straight down to the four sides, as Pix4D, Metashape, ODM and BINGO write
+// it, and three angles at once, against SciPy's from_euler("XYZ") (tests/camera has the matrix).
+TEST_F(Convert, OmegaPhiKappaInTheOrderOfOtherPrograms) {
+  Write("opk.csv",
+        "image,easting,northing,height,omega,phi,kappa\nnorth,1,2,3,30,0,0\neast,1,2,3,0,-30,-90\n"
+        "south,1,2,3,-30,0,-180\nwest,1,2,3,0,30,90\nany,1,2,3,24.5,-37.25,68.75\n");
+  const Dataset dataset = ReadInput(folder_ / "opk.csv", "", {});
+  for (std::size_t i = 0; i < 4; ++i) {
+    const ViewAngles view = ViewAnglesOf(dataset.queries[i].truth->cam_from_world);
+    EXPECT_NEAR(HeadingDifferenceDeg(view.heading_deg, 90.0 * static_cast<double>(i)), 0.0, 1e-9);
+    EXPECT_NEAR(view.pitch_deg, -60.0, 1e-9);
+    EXPECT_NEAR(view.roll_deg, 0.0, 1e-9);
+  }
+  const Eigen::Matrix3d r = dataset.queries[4].truth->cam_from_world.toRotationMatrix();
+  EXPECT_TRUE(r.row(0).isApprox(
+      Eigen::RowVector3d(0.288501404269, 0.757115012377, 0.586126093744), 1e-10));
+  EXPECT_TRUE(r.row(2).isApprox(
+      Eigen::RowVector3d(0.605293988043, 0.330096651592, -0.724330993847), 1e-10));
 }
 
 TEST_F(Convert, BadTablesNameFileAndLine) {

@@ -52,6 +52,37 @@ TEST(Dataset, ReadsAllParts) {
   EXPECT_EQ(query.truth->center_in_world.z(), 517.0);
 }
 
+TEST(Dataset, NumbersInOtherUnitsAreRecognized) {
+  EXPECT_EQ(MessageOf(Replaced("[500, 500, 320, 240]", "[24, 24, 320, 240]")),
+            "queries[0].camera.params[0]: got 24, 173 deg across 640 x 480 px, expected a focal "
+            "length in pixels, a field of view of 5 to 150 deg; millimetres? As a 35 mm equivalent "
+            "it is 443.8 px");
+  EXPECT_EQ(MessageOf(Replaced("[500, 500, 320, 240]", "[0.85, 0.85, 320, 240]")),
+            "queries[0].camera.params[0]: got 0.85, 180 deg across 640 x 480 px, expected a focal "
+            "length in pixels, a field of view of 5 to 150 deg; as a part of the longer side it is "
+            "544.0 px");
+  EXPECT_EQ(MessageOf(Replaced("\"heading_deg\": -10", "\"heading_rad\": 0.5")),
+            "queries[0].prior.heading_rad: got radians, expected \"heading_deg\", in degrees");
+}
+
+TEST(Dataset, ExchangedFilesAreRecognized) {
+  const auto message = [](const auto& read, const std::string& text) {
+    try {
+      read(Write(text));
+    } catch (const InputError& e) {
+      return std::string(e.what()).substr(std::string(e.what()).find(".json: ") + 7);
+    }
+    return std::string("no error");
+  };
+  EXPECT_EQ(message(ReadPrior,
+                    R"({"model": "PINHOLE", "width": 6, "height": 4, "params": [5, 5, 3, 2]})"),
+            "got a camera, expected a prior: position, heading_deg, ... (were the two files "
+            "exchanged?)");
+  EXPECT_EQ(message(ReadCamera, R"({"position": [1, 2], "heading_deg": 30})"),
+            "got a prior, expected a camera: model, width, height, params (were the two files "
+            "exchanged?)");
+}
+
 TEST(Dataset, BadInputIsNamedByItsPlace) {
   EXPECT_EQ(MessageOf(Replaced("\"heading_deg\": -10", "\"heading_deg\": 412.5")),
             "queries[0].prior.heading_deg: got 412.5, expected a number in [-360, 360]");

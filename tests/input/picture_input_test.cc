@@ -98,6 +98,62 @@ TEST(PicturePrior, HeightsInTheirOrderOfTrust) {
   EXPECT_EQ(drone.height_m, 10.0);
 }
 
+// Geoid undulation in Munich by EGM96: 45.6 m.
+TEST(PicturePrior, AltitudesThatContradictTheGround) {
+  PictureFacts facts = FactsInMunich();
+  facts.altitude_m = 635.0;
+  PictureInput in_the_air;
+  EXPECT_EQ(PriorFor(facts, 515.0, in_the_air).height_in_world.value(), 635.0);
+  EXPECT_NEAR(in_the_air.height_m, 55.6, 1.0);
+  EXPECT_THAT(in_the_air.notes,
+              Contains(HasSubstr("it seems to be taken from the air, 120 m above the terrain")));
+  // Meant above the ellipsoid, as some phones do: a receiver on the ground.
+  facts.altitude_m = 570.0;
+  PictureInput phone;
+  EXPECT_FALSE(PriorFor(facts, 515.0, phone).height_in_world.has_value());
+  EXPECT_THAT(phone.notes, Contains(HasSubstr("was meant above the ellipsoid, as it seems")));
+  facts.altitude_m = 400.0;
+  PictureInput below;
+  EXPECT_FALSE(PriorFor(facts, 515.0, below).height_in_world.has_value());
+  EXPECT_THAT(below.notes, Contains(HasSubstr("115 m below the terrain")));
+}
+
+TEST(PicturePrior, AircraftAreNotOnTheGround) {
+  PictureFacts facts = FactsInMunich();
+  facts.from_aircraft = true;
+  PictureInput silent;
+  PriorFor(facts, 515.0, silent);
+  EXPECT_THAT(silent.notes, Contains(HasSubstr("though an aircraft took the picture")));
+  facts.altitude_m = 535.0;
+  PictureInput low;
+  EXPECT_EQ(PriorFor(facts, 515.0, low).height_in_world.value(), 535.0);
+  facts.altitude_m = 480.0;
+  PictureInput below;
+  const double height = PriorFor(facts, 515.0, below).height_in_world.value();
+  EXPECT_EQ(height - below.height_m, 515.0);
+  facts.height_above_ground_m = 80.5;
+  PictureInput told;
+  EXPECT_EQ(PriorFor(facts, 515.0, told).height_in_world.value(), 595.5);
+  EXPECT_EQ(told.height_m, 10.0);
+}
+
+TEST(PicturePrior, AltitudesAboveTheEllipsoidAreBroughtToSeaLevel) {
+  PictureFacts facts = FactsInMunich();
+  facts.altitude_m = 600.0;
+  facts.altitude_above_ellipsoid = true;
+  PictureInput input;
+  EXPECT_NEAR(PriorFor(facts, std::nullopt, input).height_in_world.value(), 554.4, 1.0);
+  EXPECT_THAT(input.notes, Contains(HasSubstr("m above the ellipsoid = ")));
+}
+
+TEST(PicturePrior, DoubtsAreAmongTheNotes) {
+  PictureFacts facts = FactsInMunich();
+  facts.doubts = {"position: some doubt"};
+  PictureInput input;
+  PriorFor(facts, 515.0, input);
+  EXPECT_THAT(input.notes, Contains("position: some doubt"));
+}
+
 TEST(PicturePrior, TheReceiversOwnErrorWidensTheSearch) {
   PictureFacts facts = FactsInMunich();
   facts.horizontal_error_m = 14.0;

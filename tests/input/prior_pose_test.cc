@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error.h"
+
 namespace ridgeline {
 namespace {
 
@@ -54,6 +56,37 @@ TEST(AssumptionsOf, NamesEachOpenPartOnce) {
   EXPECT_EQ(all[0].what, "roll");
   prior.roll_deg = 0.0;
   EXPECT_TRUE(AssumptionsOf(prior, 1.7, "prior.json").empty());
+}
+
+TEST(AssumptionsOf, HeadingsThatMayBeRadians) {
+  PosePrior prior;
+  const auto doubt = [&](double heading) {
+    prior.heading_deg = heading;
+    return TextOf(AssumptionsOf(prior, 1.7, "prior.json")[1]);
+  };
+  EXPECT_EQ(doubt(0.5235988), "heading: 0.523599 deg as written; if that is radians, write 30.0");
+  EXPECT_EQ(doubt(360.0 - 1.5707963),
+            "heading: -1.5708 deg as written; if that is radians, write 270.0");
+  for (const double plain : {0.0, 0.5, 3.25, 30.1234567, 359.5}) {
+    EXPECT_EQ(doubt(plain).find("radians"), std::string::npos) << plain;
+  }
+}
+
+TEST(CheckPosition, LatitudeAndLongitudeAreNoMetres) {
+  PosePrior prior;
+  prior.position_in_world = {48.148912, 11.567891};
+  try {
+    CheckPosition(prior, Crs{25832, 0}, "prior.json");
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_STREQ(e.what(),
+                 "prior.json: position: got 48.148912, 11.567891, a latitude and a longitude as it "
+                 "seems, expected easting, northing in EPSG:25832 [m] (such as 690994.27, "
+                 "5336040.50)");
+  }
+  CheckPosition(prior, Crs{}, "prior.json");  // a model in a frame of its own
+  prior.position_in_world = {690994.27, 5336040.5};
+  CheckPosition(prior, Crs{25832, 0}, "prior.json");
 }
 
 TEST(AssumptionOf, SplitsAtTheFirstColon) {

@@ -9,7 +9,8 @@
 
 namespace ridgeline::testing {
 
-// Writes EXIF blocks byte by byte, as CIPA DC-008 defines them, in either byte order.
+// Writes EXIF blocks byte by byte, as CIPA DC-008 defines them, in either byte order; as BigTIFF or
+// with pointers of another type where asked.
 class ExifWriter {
  public:
   enum class Directory : std::uint8_t { kImage, kPhoto, kGps };
@@ -17,11 +18,22 @@ class ExifWriter {
 
   explicit ExifWriter(bool big_endian = false) : big_(big_endian) {}
 
+  // @param pointer_type  TIFF type of the pointers to directories: 4 LONG, 13 IFD, 16 LONG8, 18
+  // IFD8.
+  ExifWriter& Layout(bool big_tiff, std::uint16_t pointer_type) {
+    word_ = big_tiff ? 8 : 4;
+    pointer_type_ = pointer_type;
+    return *this;
+  }
+
   ExifWriter& Text(Directory directory, std::uint16_t tag, const std::string& text) {
     return Add(directory, {tag, 2, static_cast<std::uint32_t>(text.size() + 1), text + '\0'});
   }
   ExifWriter& Short(Directory directory, std::uint16_t tag, std::uint16_t value) {
     return Add(directory, {tag, 3, 1, Bytes(value, 2)});
+  }
+  ExifWriter& Undefined(Directory directory, std::uint16_t tag, const std::string& bytes) {
+    return Add(directory, {tag, 7, static_cast<std::uint32_t>(bytes.size()), bytes});
   }
   ExifWriter& Byte(Directory directory, std::uint16_t tag, std::uint8_t value) {
     return Add(directory, {tag, 1, 1, Bytes(value, 1)});
@@ -34,17 +46,21 @@ class ExifWriter {
 
   // The TIFF structure.
   std::string Block() const {
-    const std::string head =
-        (big_ ? std::string("MM\0*", 4) : std::string("II*\0", 4)) + Bytes(8, 4);
+    const bool big_tiff = word_ == 8;
+    std::string head = std::string(big_ ? "MM" : "II") + Bytes(big_tiff ? 43 : 42, 2);
+    if (big_tiff) head += Bytes(8, 2) + Bytes(0, 2);
+    const std::size_t first = head.size() + word_;
+    head += Bytes(first, word_);
+    const std::size_t pointer = pointer_type_ >= 16 ? 8 : 4;
     std::vector<Item> image = items_[0];
-    image.push_back({0x8769, 4, 1, Bytes(0, 4)});
-    image.push_back({0x8825, 4, 1, Bytes(0, 4)});
-    const std::size_t photo_at = 8 + DirectoryBytes(image, 8).size();
+    image.push_back({0x8769, pointer_type_, 1, Bytes(0, pointer)});
+    image.push_back({0x8825, pointer_type_, 1, Bytes(0, pointer)});
+    const std::size_t photo_at = first + DirectoryBytes(image, first).size();
     const std::string photo = DirectoryBytes(items_[1], photo_at);
     const std::size_t gps_at = photo_at + photo.size();
-    image[image.size() - 2].bytes = Bytes(photo_at, 4);
-    image[image.size() - 1].bytes = Bytes(gps_at, 4);
-    return head + DirectoryBytes(image, 8) + photo + DirectoryBytes(items_[2], gps_at);
+    image[image.size() - 2].bytes = Bytes(photo_at, pointer);
+    image[image.size() - 1].bytes = Bytes(gps_at, pointer);
+    return head + DirectoryBytes(image, first) + photo + DirectoryBytes(items_[2], gps_at);
   }
 
  private:
@@ -69,21 +85,24 @@ class ExifWriter {
   }
 
   std::string DirectoryBytes(const std::vector<Item>& items, std::size_t at) const {
-    std::string entries = Bytes(items.size(), 2);
+    const std::size_t count_size = word_ == 8 ? 8 : 2;
+    std::string entries = Bytes(items.size(), count_size);
     std::string data;
-    const std::size_t data_at = at + 2 + 12 * items.size() + 4;
+    const std::size_t data_at = at + count_size + (4 + 2 * word_) * items.size() + word_;
     for (const Item& item : items) {
-      entries += Bytes(item.tag, 2) + Bytes(item.type, 2) + Bytes(item.count, 4);
-      if (item.bytes.size() <= 4) {
-        entries += item.bytes + std::string(4 - item.bytes.size(), '\0');
+      entries += Bytes(item.tag, 2) + Bytes(item.type, 2) + Bytes(item.count, word_);
+      if (item.bytes.size() <= word_) {
+        entries += item.bytes + std::string(word_ - item.bytes.size(), '\0');
       } else {
-        entries += Bytes(data_at + data.size(), 4);
+        entries += Bytes(data_at + data.size(), word_);
         data += item.bytes;
       }
     }
-    return entries + Bytes(0, 4) + data;
+    return entries + Bytes(0, word_) + data;
   }
 
+  std::size_t word_ = 4;  // bytes of an offset
+  std::uint16_t pointer_type_ = 4;
   bool big_;
   std::vector<Item> items_[3];
 };
