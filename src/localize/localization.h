@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "camera/pose.h"
+#include "localize/goodness.h"
 
 namespace ridgeline {
 
@@ -16,9 +17,13 @@ enum class LocalizationStatus : std::uint8_t {
   kTooFewLines,     // the picture shows too little to compare
   kNoVisibleModel,  // no admissible pose of the box sees the model
   kAmbiguous,       // poses far apart explain the picture about equally well
+  kNotExplained,    // no pose that was looked at shows what the picture shows
+  kUnprotected,     // the protection level is above the alert limit
+  kDoubtful,        // a pose, with the doubts named
 };
 
-// "ok", "too_few_lines", "no_visible_model", "ambiguous".
+// "ok", "too_few_lines", "no_visible_model", "ambiguous", "not_explained", "unprotected",
+// "doubtful".
 const char* NameOf(LocalizationStatus status);
 
 // A distinct local minimum of the energy.
@@ -41,10 +46,19 @@ struct EnergyMap {
   }
 };
 
-// 95 % region of a pose.
+// How far a pose may be off.
 struct PoseSpread {
   Eigen::Matrix2d position_covariance = Eigen::Matrix2d::Zero();  // east, north [m^2]
   double heading_sigma_deg = 0.0;
+  // Of east, north, height [m], heading, pitch, roll [deg], in this order.
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+};
+
+// Bounds that at most one of a thousand answers exceeds, as in the integrity of GNSS (RTCA DO-229:
+// protection level).
+struct ProtectionLevel {
+  double position_m = 0.0;  // horizontal
+  double heading_deg = 0.0;
 };
 
 // Wall-clock time of a stage.
@@ -55,15 +69,20 @@ struct StageTime {
 
 struct Localization {
   LocalizationStatus status = LocalizationStatus::kNoVisibleModel;
-  std::string reason;        // of an abstention, in words
-  std::optional<Pose> pose;  // world frame; absent unless status is kOk
+  std::string reason;               // of an abstention, in words
+  std::vector<std::string> doubts;  // in words
+  std::optional<Pose> pose;         // world frame; present for kOk and kDoubtful
   double energy = 1.0;       // of the best mode, [0, 1]
   double confidence = 0.0;   // probability that the pose is within 2 m and 2 degrees
+  double posterior_mass = 0.0;  // of the poses near the answer among those of the box
+  Goodness goodness;            // of the best mode; not known for scores that judge no buildings
   PoseSpread spread;
+  std::optional<ProtectionLevel> protection;  // absent: none can be given
   std::vector<PoseMode> modes;  // best first; filled for kAmbiguous too
   EnergyMap map;
   std::uint64_t evaluations = 0;  // energies computed
   std::vector<StageTime> times;
+  std::vector<std::string> notes;  // what was done beyond the box asked for
   std::vector<std::string> warnings;
 };
 

@@ -8,10 +8,11 @@
 #include <utility>
 
 #include "base/error.h"
+#include "localize/belief.h"
 #include "localize/pose_scorer.h"
-#include "localize/posterior.h"
 #include "localize/search_poses.h"
 #include "localize/settle_pose.h"
+#include "localize/widen.h"
 #include "score/line_likelihood.h"
 #include "score/picture_evidence.h"
 #include "score/score_table.h"
@@ -76,30 +77,23 @@ std::string NoVisibleModel(const Score& score) {
   return unusable.empty() ? "no admissible pose of the search box sees the model" : unusable;
 }
 
-// The modes and what to believe of the best of them.
-void Believe(const SearchedPoses& found,
-             const PoseSpace& space,
-             const CityModel& model,
-             const ConfidenceOptions& options,
-             Localization& result) {
-  const Posterior posterior = found.volume ? PosteriorOf(*found.volume, found.modes, space, options)
-                                           : PosteriorOf(found.modes, options);
-  result.confidence = posterior.confidence;
-  result.spread = posterior.spread;
-  for (const ScoredPose& mode : found.modes) {
-    const std::optional<Pose> local = space.PoseAt(mode.offset);
-    result.modes.push_back({{local->cam_from_world, local->center_in_world + model.origin_in_world},
-                            Score::EnergyOf(mode.log_ratio)});
+// Looks over the box of the scorer's space, and refines what it finds.
+SearchedPoses SearchAndRefine(const PoseScorer& scorer,
+                              const PictureEvidence& picture,
+                              const LocalizerOptions& options,
+                              std::uint64_t seed,
+                              int threads) {
+  SearchedPoses found = SearchPoses(scorer, picture, options.search, seed, threads);
+  if (!options.search.refine || found.modes.empty()) return found;
+  found.evaluations += RefineModes(scorer, threads, found);
+  if (options.search.refinement == "fit") {
+    found.modes.front() = SettlePose(scorer,
+                                     {picture.segments(), picture.field(), picture.camera()},
+                                     options.score.evidence.cues.Get<LineLikelihoodOptions>(),
+                                     options.search.fit,
+                                     found.modes.front());
   }
-  result.energy = result.modes.front().energy;
-  if (result.confidence < options.abstain_below) {
-    result.status = LocalizationStatus::kAmbiguous;
-    result.reason = "other poses explain the picture about as well (confidence " +
-                    std::to_string(result.confidence).substr(0, 4) + ")";
-  } else {
-    result.status = LocalizationStatus::kOk;
-    result.pose = result.modes.front().pose;
-  }
+  return found;
 }
 
 }  // namespace
@@ -114,6 +108,12 @@ const char* NameOf(LocalizationStatus status) {
       return "no_visible_model";
     case LocalizationStatus::kAmbiguous:
       return "ambiguous";
+    case LocalizationStatus::kNotExplained:
+      return "not_explained";
+    case LocalizationStatus::kUnprotected:
+      return "unprotected";
+    case LocalizationStatus::kDoubtful:
+      return "doubtful";
   }
   return "";
 }
@@ -189,35 +189,37 @@ Localization Localizer::Localize(const LocalizationInput& input,
                      TooFewLines(picture.segments().size()));
   }
 
-  // Search: over all of the admissible box.
-  const PoseSpace space(input.prior, ranges, scene, dtm(), impl_->footprints);
-  const PoseScorer scorer(
-      *score, scene, space, picture.camera(), options.score.evidence.surface_step_deg);
-  SearchedPoses found = SearchPoses(scorer, picture, options.search, seed, threads);
-  result.evaluations = found.evaluations;
-  if (found.volume) result.map = MapOf(*found.volume, space, impl_->model);
-  lap("search");
-  if (found.modes.empty()) {
-    return Abstained(
-        std::move(result), LocalizationStatus::kNoVisibleModel, NoVisibleModel(*score));
-  }
+  PoseSpaceOptions box = ranges;
+  for (int widening = 0;; ++widening) {
+    // Search: over all of the admissible box; refine what is found.
+    const PoseSpace space(input.prior, box, scene, dtm(), impl_->footprints);
+    const PoseScorer scorer(
+        *score, scene, space, picture.camera(), options.score.evidence.surface_step_deg);
+    const SearchedPoses found = SearchAndRefine(scorer, picture, options, seed, threads);
+    result.evaluations += found.evaluations;
+    if (found.volume) result.map = MapOf(*found.volume, space, impl_->model);
+    lap("search");
 
-  // Refine: the modes on the exact score, and the best of them by least squares.
-  if (options.search.refine) {
-    result.evaluations += RefineModes(scorer, threads, found);
-    if (options.search.refinement == "fit") {
-      found.modes.front() = SettlePose(scorer,
-                                       {picture.segments(), picture.field(), picture.camera()},
-                                       options.score.evidence.cues.Get<LineLikelihoodOptions>(),
-                                       options.search.fit,
-                                       found.modes.front());
+    // Believe: as much as the evidence carries; look further where it carries nothing.
+    const bool is_last = widening == options.search.widenings;
+    if (found.modes.empty() && is_last) {
+      return Abstained(
+          std::move(result), LocalizationStatus::kNoVisibleModel, NoVisibleModel(*score));
     }
-    lap("refinement");
+    PoseSpace::Offset best;
+    if (!found.modes.empty()) {
+      best = found.modes.front().offset;
+      Believe(found, scorer, options.confidence, result);
+    }
+    lap("confidence");
+    const bool is_explained =
+        !found.modes.empty() && result.confidence >= options.confidence.doubtful_below;
+    if (is_last || (is_explained && LimitsReached(best, space).empty())) break;
+    const PoseSpaceOptions wider = Widened(space, best, !is_explained);
+    if (wider == space.ranges()) break;
+    box = wider;
+    result.notes.push_back("searched further: " + WordsOf(box));
   }
-
-  // Believe: as much as the other poses of the box allow.
-  Believe(found, space, impl_->model, options.confidence, result);
-  lap("confidence");
   return result;
 }
 

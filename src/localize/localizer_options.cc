@@ -41,6 +41,7 @@ void SearchOptions::Visit(OptionVisitor& v) {
   v.Field("evaluations", evaluations);
   v.Group("sampler", [this](OptionVisitor& g) { sampler.Visit(g); });
   v.Field("refine", refine);
+  v.Field("widenings", widenings);
   v.Field("refinement", refinement);
   v.Group("fit", [this](OptionVisitor& g) { fit.Visit(g); });
 }
@@ -53,29 +54,13 @@ void SearchOptions::Validate() const {
   if (refinement != "compass" && refinement != "fit") {
     throw InputError("", "search.refinement", "\"" + refinement + "\"", "compass or fit");
   }
+  if (widenings < 0 || widenings > 4) {
+    throw InputError("", "search.widenings", std::to_string(widenings), "[0, 4]");
+  }
   fit.Validate();
   space.Validate();
   map.Validate();
   sampler.Validate();
-}
-
-void ConfidenceOptions::Visit(OptionVisitor& v) {
-  v.Field("abstain_below", abstain_below);
-  v.Field("offset", offset);
-  v.Field("slope", slope);
-  v.Field("temperature", temperature);
-  v.Field("floor_m", floor_m);
-  v.Field("floor_deg", floor_deg);
-}
-
-void ConfidenceOptions::Validate() const {
-  if (!(abstain_below >= 0.0 && abstain_below <= 1.0)) {
-    throw InputError("", "confidence.abstain_below", std::to_string(abstain_below), "[0, 1]");
-  }
-  RequirePositive("confidence.slope", slope);
-  RequirePositive("confidence.temperature", temperature);
-  RequirePositive("confidence.floor_m", floor_m);
-  RequirePositive("confidence.floor_deg", floor_deg);
 }
 
 void LocalizerOptions::Visit(OptionVisitor& v) {

@@ -5,6 +5,7 @@
 
 #include "base/options.h"
 #include "lines/line_detector.h"
+#include "localize/confidence.h"
 #include "localize/fit_pose.h"
 #include "localize/pose_space.h"
 #include "optim/sampler_options.h"
@@ -40,25 +41,12 @@ struct SearchOptions {
   SamplerOptions sampler;
   // Whether the modes are refined on the exact score.
   bool refine = true;
+  // How often the box is made wider where no pose of it explains the picture, or the answer lies on
+  // a limit; fixed parameters stay fixed.
+  int widenings = 1;
   // "compass": on the score alone. "fit": the best mode is then fitted by least squares.
   std::string refinement = "compass";
   PoseFitOptions fit;
-
-  void Visit(OptionVisitor& v);
-  void Validate() const;
-};
-
-struct ConfidenceOptions {
-  // Answers below this confidence are withheld.
-  double abstain_below = 0.15;
-  // Logistic calibration of the posterior mass: logit(confidence) = offset + slope * logit(mass).
-  double offset = 0.0;
-  double slope = 1.0;
-  // Widens the posterior, since samples of a picture are correlated.
-  double temperature = 1.15;
-  // Least standard deviations, of what the map cannot resolve.
-  double floor_m = 0.5;
-  double floor_deg = 0.5;
 
   void Visit(OptionVisitor& v);
   void Validate() const;

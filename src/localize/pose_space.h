@@ -29,6 +29,7 @@ struct PoseSpaceOptions {
   // Whether poses in a building's footprint and off the DTM are skipped.
   bool free_space = true;
 
+  bool operator==(const PoseSpaceOptions&) const = default;
   void Visit(OptionVisitor& v) {
     v.Field("east_m", east_m);
     v.Field("north_m", north_m);

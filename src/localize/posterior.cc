@@ -27,11 +27,15 @@ double AngleDeg(const PoseSpace::Offset& a, const PoseSpace::Offset& b) {
       .norm();
 }
 
-double Calibrated(double mass, const ConfidenceOptions& options) {
-  constexpr double kEdge = 1e-6;
-  const double p = std::clamp(mass, kEdge, 1.0 - kEdge);
-  const double logit = options.offset + options.slope * std::log(p / (1.0 - p));
-  return 1.0 / (1.0 + std::exp(-logit));
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+Vector6 Difference(const PoseSpace::Offset& a, const PoseSpace::Offset& b) {
+  Vector6 d;
+  d << a.east_m - b.east_m, a.north_m - b.north_m, a.height_m - b.height_m,
+      HeadingDifferenceDeg(a.heading_deg, b.heading_deg), a.pitch_deg - b.pitch_deg,
+      a.roll_deg - b.roll_deg;
+  return d;
 }
 
 Posterior FromSamples(const std::vector<Sample>& samples,
@@ -41,27 +45,24 @@ Posterior FromSamples(const std::vector<Sample>& samples,
   for (const Sample& sample : samples) highest = std::max(highest, sample.log_ratio);
   double total = 0.0;
   double near = 0.0;
-  Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
-  double heading_moment = 0.0;
+  Matrix6 moments = Matrix6::Zero();
   for (const Sample& sample : samples) {
     const double weight = std::exp((sample.log_ratio - highest) / options.temperature);
     total += weight;
     const double distance = DistanceM(sample.offset, best);
     const double angle = AngleDeg(sample.offset, best);
     if (distance <= kNearM && angle <= kNearDeg) near += weight;
-    const Eigen::Vector2d d(sample.offset.east_m - best.east_m,
-                            sample.offset.north_m - best.north_m);
-    const double h = HeadingDifferenceDeg(sample.offset.heading_deg, best.heading_deg);
+    const Vector6 d = Difference(sample.offset, best);
     moments += weight * d * d.transpose();
-    heading_moment += weight * h * h;
   }
   Posterior posterior;
   posterior.mass = near / total;
-  posterior.confidence = Calibrated(posterior.mass, options);
-  posterior.spread.position_covariance =
-      moments / total + options.floor_m * options.floor_m * Eigen::Matrix2d::Identity();
-  posterior.spread.heading_sigma_deg =
-      std::sqrt(heading_moment / total + options.floor_deg * options.floor_deg);
+  Vector6 floors;
+  floors << Eigen::Vector3d::Constant(options.floor_m), Eigen::Vector3d::Constant(options.floor_deg);
+  const Matrix6 floor = floors.cwiseAbs2().asDiagonal();
+  posterior.spread.covariance = moments / total + floor;
+  posterior.spread.position_covariance = posterior.spread.covariance.topLeftCorner<2, 2>();
+  posterior.spread.heading_sigma_deg = std::sqrt(posterior.spread.covariance(3, 3));
   return posterior;
 }
 

@@ -11,8 +11,7 @@ namespace ridgeline {
 
 // What is believed about a pose, from how well all other poses of the box explain the picture.
 struct Posterior {
-  double mass = 0.0;        // of the poses within 2 m and 2 degrees, [0, 1]
-  double confidence = 0.0;  // the same, calibrated
+  double mass = 0.0;  // of the poses within 2 m and 2 degrees, [0, 1]
   PoseSpread spread;
 };
 

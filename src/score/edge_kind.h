@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "projection/scene.h"
@@ -16,6 +17,9 @@ enum class EdgeKind : std::uint8_t {
   kSeam,       // adjoining facades in one plane
 };
 inline constexpr int kEdgeKinds = 5;
+// In the order of EdgeKind; those of their cues.
+inline constexpr std::array<const char*, kEdgeKinds> kEdgeKindNames = {
+    "skyline_edges", "occlusions", "folds", "ground_lines", "seams"};
 
 EdgeKind KindOf(const VisiblePiece& piece, const Scene& scene);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "score/edge_fit.h"
 #include "score/score_plugin.h"
 
 namespace ridgeline {
@@ -15,7 +16,13 @@ struct EvidenceScore::Memory final : Score::Workspace {
 
 EvidenceScore::EvidenceScore(const CueContext& context,
                              const std::map<std::string, double>& weights)
-    : picture_(context.picture) {
+    : picture_(context.picture),
+      scene_(context.scene),
+      lines_(context.options.Get<LineLikelihoodOptions>()) {
+  for (const char* name : kEdgeKindNames) {
+    const auto it = weights.find(name);
+    edge_weights_.push_back(it == weights.end() ? 0.0 : it->second);
+  }
   for (const CuePlugin* plugin : CueTable()) {
     std::vector<double> of_plugin;
     for (const CueName& cue : plugin->names) {
@@ -48,7 +55,9 @@ std::unique_ptr<Score::Workspace> EvidenceScore::NewWorkspace() const {
 }
 
 std::unique_ptr<Score> EvidenceScore::Tolerant(double factor) const {
-  std::unique_ptr<EvidenceScore> tolerant(new EvidenceScore(picture_));
+  std::unique_ptr<EvidenceScore> tolerant(new EvidenceScore(picture_, scene_));
+  tolerant->lines_ = lines_;
+  tolerant->edge_weights_ = edge_weights_;
   tolerant->parts_ = parts_;
   tolerant->weights_ = weights_;
   for (Part& part : tolerant->parts_) {
@@ -99,6 +108,14 @@ double EvidenceScore::LogRatio(const PositionView& view,
   double sum = 0.0;
   for (std::size_t k = 0; k < weights_.size(); ++k) sum += weights_[k] * memory.values[k];
   return sum;
+}
+
+std::vector<BuildingFit> EvidenceScore::BuildingFits(const PositionView& view,
+                                                     const Pose& cam_from_local,
+                                                     Score::Workspace& workspace) const {
+  ProjectPieces(view.visible, picture_.camera(), cam_from_local, workspace.segments);
+  return EdgeFit(picture_.field(), picture_.camera(), lines_)
+      .Of(workspace.segments, view.visible, view.kinds, edge_weights_, scene_, cam_from_local);
 }
 
 extern const ScorePlugin kEvidenceScore;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "score/cue_table.h"
+#include "score/line_likelihood.h"
 #include "score/score.h"
 
 namespace ridgeline {
@@ -27,6 +28,9 @@ class EvidenceScore final : public Score {
   double LogRatio(const PositionView& view,
                   const Pose& cam_from_local,
                   Score::Workspace& workspace) const override;
+  std::vector<BuildingFit> BuildingFits(const PositionView& view,
+                                        const Pose& cam_from_local,
+                                        Score::Workspace& workspace) const override;
   std::unique_ptr<Score> Tolerant(double factor) const override;
 
   // Names of the cues' values, and the values of a pose, without their weights; valid until the
@@ -44,10 +48,14 @@ class EvidenceScore final : public Score {
   };
   struct Memory;
 
-  explicit EvidenceScore(const PictureEvidence& picture) : picture_(picture) {}
+  EvidenceScore(const PictureEvidence& picture, const Scene& scene)
+      : picture_(picture), scene_(scene) {}
   void ReadPose(const Pose& cam_from_local, const PositionView& view, Memory& memory) const;
 
   const PictureEvidence& picture_;
+  const Scene& scene_;
+  LineLikelihoodOptions lines_;
+  std::vector<double> edge_weights_;  // by kind of edge
   std::vector<Part> parts_;
   std::vector<double> weights_;  // of the values
 };

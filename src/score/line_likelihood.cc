@@ -13,8 +13,9 @@ namespace {
 constexpr float kSigmaRatio = 1.35f;  // between levels
 constexpr float kSmallestSigmaPx = 0.75f;
 
-// Log likelihood ratio of a distance of `units` eighths of a pixel.
-double LogRatioOf(int units, double sigma_px, double density, double seen_share) {
+}  // namespace
+
+double LineLogRatio(int units, double sigma_px, double density, double seen_share) {
   const double d = units / OrientedDistanceField::kUnitsPerPx;
   const double hit = std::sqrt(2.0 / M_PI) / sigma_px * std::exp(-0.5 * d * d / (sigma_px * sigma_px));
   const double hit_beyond = std::erfc(d / sigma_px / std::sqrt(2.0));
@@ -23,7 +24,14 @@ double LogRatioOf(int units, double sigma_px, double density, double seen_share)
   return std::log(1.0 - seen_share + seen_share * ratio);
 }
 
-}  // namespace
+double LineLikelihood::SigmaOfLevel(int level) {
+  return kSmallestSigmaPx * std::pow(kSigmaRatio, level);
+}
+
+int LineLikelihood::LevelOfSigma(double sigma_px) {
+  const double level = std::log(sigma_px / kSmallestSigmaPx) / std::log(kSigmaRatio);
+  return std::clamp(static_cast<int>(level + 0.5), 0, kSigmaLevels - 1);
+}
 
 void LineLikelihoodOptions::Validate() const {
   const auto fail = [](const std::string& name, double value, const std::string& expected) {
@@ -56,7 +64,7 @@ LineLikelihood::LineLikelihood(const OrientedDistanceField& field,
         const double density = OrientedDistanceField::DensityOfLevel(level);
         for (int units = 0; units < kDistances; ++units) {
           *ratio++ = static_cast<float>(
-              LogRatioOf(units, sigma_px, density, options.seen_share[kind]));
+              LineLogRatio(units, sigma_px, density, options.seen_share[kind]));
         }
       }
       ratio += kDistances;  // hidden: 0

@@ -31,6 +31,10 @@ struct LineLikelihoodOptions {
   void Validate() const;
 };
 
+// Log likelihood ratio of one sample of an edge whose nearest line is `units` / 8 px away (255: that
+// or farther), where lines at random have the density [1 / px].
+double LineLogRatio(int units, double sigma_px, double density, double seen_share);
+
 // Log likelihood ratio of the picture's lines given the projected edges against lines at random with
 // the density rho [px / px^2] that the picture has there. The nearest line to a sample of an edge is
 // the edge's own, seen with probability v and half-normal distance h (wider towards the camera: model
@@ -38,6 +42,11 @@ struct LineLikelihoodOptions {
 // then counts log(1 - v + v * (h(d) / (2 rho) + P_h(> d))), or 0 where something hides the edge.
 class LineLikelihood {
  public:
+  // Standard deviations [px] are tabulated at geometric levels.
+  static constexpr int kSigmaLevels = 12;
+  static double SigmaOfLevel(int level);
+  static int LevelOfSigma(double sigma_px);
+
   LineLikelihood(const OrientedDistanceField& field,
                  const PinholeCamera& camera,
                  const LineLikelihoodOptions& options);
@@ -48,7 +57,6 @@ class LineLikelihood {
                                           std::span<const EdgeKind> kinds) const;
 
  private:
-  static constexpr int kSigmaLevels = 12;
   static constexpr int kDistances = 256;
   static constexpr int kDensityLevels = OrientedDistanceField::kHiddenLevel + 1;
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "camera/pose.h"
+#include "score/building_fit.h"
 #include "score/position_view.h"
 
 namespace ridgeline {
@@ -43,6 +44,14 @@ class Score {
                          std::span<const Pose> poses,
                          Workspace& workspace,
                          std::span<double> log_ratios) const;
+
+  // How well the edges of each building in view are seen, by building; empty: the score cannot
+  // tell.
+  virtual std::vector<BuildingFit> BuildingFits(const PositionView& /*view*/,
+                                                const Pose& /*cam_from_local*/,
+                                                Workspace& /*workspace*/) const {
+    return {};
+  }
 
   // The same score with a tolerance of the model's errors that is wider by a factor > 1, for poses
   // on a coarse grid. Refers to this one's picture. Null: the tolerance is the same on any grid.

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "localize/belief.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "localize/posterior.h"
+#include "localize/widen.h"
+
+namespace ridgeline {
+namespace {
+
+// Radius of a normal distribution in the plane, and half-width on a line, in standard deviations,
+// that are exceeded once in a thousand times.
+constexpr double kOneInThousandPlane = 3.717;
+constexpr double kOneInThousandLine = 3.291;
+constexpr double kAcceptedRisk = 1e-3;
+
+// A building that has this to say and says the opposite is named.
+constexpr double kTellingNat = 4.0;
+constexpr double kMisfit = 0.25;
+constexpr double kRoofGainNat = 4.0;
+// Below this the edges are not where they should be.
+constexpr double kExplained = 0.5;
+
+std::string Text(const char* format, double value) {
+  char text[200];
+  std::snprintf(text, sizeof(text), format, value);
+  return text;
+}
+
+// None where a gross error is likelier than the risk that is accepted.
+std::optional<ProtectionLevel> ProtectionOf(const PoseSpread& spread, double gross_probability) {
+  if (gross_probability > kAcceptedRisk) return std::nullopt;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(spread.position_covariance);
+  return ProtectionLevel{kOneInThousandPlane * std::sqrt(solver.eigenvalues()(1)),
+                         kOneInThousandLine * spread.heading_sigma_deg};
+}
+
+std::string NameOf(const Building& building) {
+  return building.parent_id.empty() ? building.id : building.parent_id + " (" + building.id + ")";
+}
+
+std::vector<std::string> DoubtsOf(const Goodness& goodness, const CityModel& model) {
+  std::vector<std::string> doubts;
+  if (goodness.is_known() && goodness.explained() < kExplained) {
+    doubts.push_back(Text("the model's edges are not seen where they should be: %.0f % % of what a "
+                          "right pose shows on average",
+                          100.0 * std::max(0.0, goodness.explained())));
+  }
+  for (const BuildingFit& fit : goodness.buildings) {
+    const std::string building = "building " + NameOf(model.buildings[fit.building]);
+    if (fit.roof_gain > kRoofGainNat) {
+      doubts.push_back(building + Text(": its roof seems %+.1f m off in the model", fit.roof_shift_m));
+    } else if (fit.information() > kTellingNat && fit.explained() < kMisfit) {
+      doubts.push_back(building + " does not fit");
+    }
+  }
+  return doubts;
+}
+
+void Withhold(LocalizationStatus status, std::string reason, Localization& result) {
+  result.status = status;
+  result.reason = std::move(reason);
+  result.pose.reset();
+}
+
+void Decide(const ConfidenceOptions& options, bool on_limit, Localization& result) {
+  result.pose = result.modes.front().pose;
+  if (result.confidence < options.abstain_below) {
+    const bool is_explained = !result.goodness.is_known() || result.goodness.explained() >= kExplained;
+    Withhold(is_explained ? LocalizationStatus::kAmbiguous : LocalizationStatus::kNotExplained,
+             is_explained ? "other poses explain the picture about as well (confidence " +
+                                Text("%.2f)", result.confidence)
+                          : "no pose that was searched explains the picture (confidence " +
+                                Text("%.2f)", result.confidence),
+             result);
+  } else if (options.alert_limit_m > 0.0 &&
+             (!result.protection || result.protection->position_m > options.alert_limit_m)) {
+    Withhold(LocalizationStatus::kUnprotected,
+             result.protection ? Text("the protection level is %.1f m", result.protection->position_m) +
+                                     Text(", above the alert limit of %.1f m", options.alert_limit_m)
+                               : "no protection level can be given",
+             result);
+  } else {
+    const bool doubtful = result.confidence < options.doubtful_below || on_limit;
+    result.status = doubtful ? LocalizationStatus::kDoubtful : LocalizationStatus::kOk;
+  }
+}
+
+}  // namespace
+
+void Believe(const SearchedPoses& found,
+             const PoseScorer& scorer,
+             const ConfidenceOptions& options,
+             Localization& result) {
+  const PoseSpace& space = scorer.space();
+  const CityModel& model = scorer.scene().model();
+  const ScoredPose& best = found.modes.front();
+  const Posterior posterior = found.volume ? PosteriorOf(*found.volume, found.modes, space, options)
+                                           : PosteriorOf(found.modes, options);
+  result.spread = posterior.spread;
+  result.posterior_mass = posterior.mass;
+  result.modes.clear();
+  for (const ScoredPose& mode : found.modes) {
+    const std::optional<Pose> local = space.PoseAt(mode.offset);
+    result.modes.push_back({{local->cam_from_world, local->center_in_world + model.origin_in_world},
+                            Score::EnergyOf(mode.log_ratio)});
+  }
+  result.energy = result.modes.front().energy;
+  result.goodness = GoodnessOf(scorer, best.offset);
+  result.confidence = result.goodness.is_known()
+                          ? options.right.Probability(posterior.mass, result.goodness)
+                          : posterior.mass;
+  result.protection.reset();
+  if (result.goodness.is_known()) {
+    result.protection = ProtectionOf(result.spread,
+                                     options.gross.Probability(posterior.mass, result.goodness));
+  }
+  const std::vector<std::string> limits = LimitsReached(best.offset, space);
+  result.doubts = DoubtsOf(result.goodness, model);
+  for (const std::string& limit : limits) {
+    result.doubts.push_back("the answer lies on the limit of " + limit);
+  }
+  Decide(options, !limits.empty(), result);
+}
+
+}  // namespace ridgeline
