@@ -108,6 +108,7 @@ void WriteResults(const BenchArguments& arguments,
   if (!arguments.out.empty()) {
     const fs::path out = arguments.out;
     WriteFileAtomically(out / "results.csv", ResultsCsv(records));
+    WriteFileAtomically(out / "evidence.csv", EvidenceCsv(records));
     WriteFileAtomically(out / "poses.txt", PosesText(records, origin));
     WriteFileAtomically(out / "summary.json", summary);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "eval/pose_json.h"
 #include "lines/segments_file.h"
 
 namespace ridgeline {
@@ -54,11 +55,17 @@ RunRecord RecordOf(const Query& query, int seed, const Localization& localizatio
   record.query = query.id;
   record.set = query.set;
   record.seed = seed;
-  record.status = localization.pose ? "ok" : "abstained";
+  record.status = StatusOf(localization);
   record.reason = localization.reason;
   record.energy = localization.energy;
   record.confidence = localization.confidence;
   record.pose = localization.pose;
+  record.posterior_mass = localization.posterior_mass;
+  record.explained = localization.goodness.explained();
+  record.observed_nat = localization.goodness.observed;
+  if (!localization.modes.empty() && query.truth) {
+    record.candidate_error = ErrorOf(localization.modes.front().pose, *query.truth);
+  }
   record.has_truth = query.truth.has_value();
   record.evaluations = localization.evaluations;
   record.seconds = seconds;

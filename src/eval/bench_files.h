@@ -17,6 +17,10 @@ namespace ridgeline {
 // One row per run.
 std::string ResultsCsv(std::span<const RunRecord> runs);
 
+// evidence.csv: what the confidence of each run rests on, with the error of its best pose even
+// where that was withheld. The confidence is learned from it (scripts/learn_confidence.py).
+std::string EvidenceCsv(std::span<const RunRecord> runs);
+
 // Summary over all runs, and by set where there are several. Recalls are null without truth and
 // where the protocol leaves no right answer in the box.
 std::string SummaryJson(const std::string& dataset,

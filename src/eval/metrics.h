@@ -33,6 +33,11 @@ struct RunRecord {
   double confidence = 0.0;
   std::optional<Pose> pose;  // world frame; absent: abstained
   std::optional<PoseError> error;
+  // What the confidence rests on (Localization), and the error of the best pose, withheld or not.
+  double posterior_mass = 0.0;
+  double explained = 0.0;
+  double observed_nat = 0.0;
+  std::optional<PoseError> candidate_error;
   // 95 % region: whether it holds the truth (position ellipse, heading interval).
   std::optional<bool> ellipse_holds_truth;
   std::optional<bool> interval_holds_truth;

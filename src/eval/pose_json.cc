@@ -68,7 +68,40 @@ Json EllipseJson(const PoseSpread& spread) {
           {"heading_plus_minus_deg", Metres(kNormal95 * spread.heading_sigma_deg)}};
 }
 
+// Rows of east, north, height [m], heading, pitch, roll [deg].
+Json JsonOf(const Eigen::Matrix<double, 6, 6>& covariance) {
+  Json rows = Json::array();
+  for (int i = 0; i < 6; ++i) {
+    Json row = Json::array();
+    for (int j = 0; j < 6; ++j) row.push_back(Fine(covariance(i, j)));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+Json JsonOf(const Goodness& goodness, double posterior_mass, const CityModel& model) {
+  Json json = {{"posterior_mass", Fine(posterior_mass)},
+               {"explained", Fine(goodness.explained())},
+               {"observed_nat", Fine(goodness.observed)},
+               {"expected_nat", Fine(goodness.expected)},
+               {"chance_nat", Fine(goodness.chance)}};
+  json["buildings"] = Json::array();
+  for (const BuildingFit& fit : goodness.buildings) {
+    json["buildings"].push_back({{"id", model.buildings[fit.building].id},
+                                 {"explained", Fine(fit.explained())},
+                                 {"information_nat", Fine(fit.information())},
+                                 {"roof_shift_m", Fine(fit.roof_shift_m)},
+                                 {"roof_gain_nat", Fine(fit.roof_gain)}});
+  }
+  return json;
+}
+
 }  // namespace
+
+std::string StatusOf(const Localization& localization) {
+  if (!localization.pose) return "abstained";
+  return localization.status == LocalizationStatus::kDoubtful ? "doubtful" : "ok";
+}
 
 std::string PoseJson(const std::string& picture,
                      const Localization& localization,
@@ -76,7 +109,7 @@ std::string PoseJson(const std::string& picture,
                      const std::vector<Assumption>& assumptions) {
   Json json;
   json["picture"] = picture;
-  json["status"] = localization.pose ? "ok" : "abstained";
+  json["status"] = StatusOf(localization);
   json["outcome"] = NameOf(localization.status);
   if (!localization.reason.empty()) json["reason"] = localization.reason;
   json["crs"] = CrsName(model.crs);
@@ -84,6 +117,16 @@ std::string PoseJson(const std::string& picture,
   json["energy"] = Fine(localization.energy);
   json["confidence"] = Fine(localization.confidence);
   if (!localization.modes.empty()) json["region_95"] = EllipseJson(localization.spread);
+  if (!localization.modes.empty()) json["covariance"] = JsonOf(localization.spread.covariance);
+  json["protection_level"] = nullptr;
+  if (localization.protection) {
+    json["protection_level"] = {{"position_m", Metres(localization.protection->position_m)},
+                                {"heading_deg", Metres(localization.protection->heading_deg)}};
+  }
+  json["doubts"] = localization.doubts;
+  if (localization.goodness.is_known()) {
+    json["goodness"] = JsonOf(localization.goodness, localization.posterior_mass, model);
+  }
   json["modes"] = Json::array();
   for (const PoseMode& mode : localization.modes) {
     const ViewAngles view = ViewAnglesOf(mode.pose.cam_from_world);
@@ -94,6 +137,7 @@ std::string PoseJson(const std::string& picture,
                              {"energy", Fine(mode.energy)}});
   }
   json["assumptions"] = JsonOf(assumptions);
+  json["notes"] = localization.notes;
   json["warnings"] = localization.warnings;
   return json.dump(1) + "\n";
 }

@@ -10,6 +10,9 @@
 
 namespace ridgeline {
 
+// "ok", "doubtful" (a pose, with doubts) or "abstained" (none).
+std::string StatusOf(const Localization& localization);
+
 // A localization as JSON (pose.json): status and reason; the pose as position with
 // cam_from_world_wxyz, heading / pitch / roll, omega / phi / kappa of photogrammetry and of Loeper
 // et al., COLMAP's translation relative to the model's origin, and latitude / longitude; energy,
