@@ -62,7 +62,9 @@ EdgeFit::EdgeFit(const OrientedDistanceField& field,
         double expected = 0.0;
         double chance = 0.0;
         for (int units = 0; units < kDistances; ++units) {
-          const double ratio = LineLogRatio(units,
+          const double distance_px = units / OrientedDistanceField::kUnitsPerPx;
+          const double ratio = LineLogRatio(distance_px,
+                                            units + 1 == kDistances,
                                             LineLikelihood::SigmaOfLevel(sigma),
                                             0.5 * rate,
                                             options.seen_share[kind]);
