@@ -10,6 +10,8 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr double kStepDeg = 0.25;
+// Of the first look; lines within a degree support a tilt (kSigmaRad).
+constexpr double kCoarseDeg = 1.0;
 constexpr float kVerticalShare = 0.3f;  // of the lines
 constexpr float kSigmaRad = 1.0f * kPi / 180.0f;
 
@@ -48,6 +50,56 @@ double LogRatio(const std::vector<Line>& lines, const ViewAngles& tilt) {
   return sum;
 }
 
+struct TiltBox {
+  ViewAngles center;
+  double pitch_deg = 0.0;  // half-ranges
+  double roll_deg = 0.0;
+};
+struct TiltGrid {
+  double reach_deg = 0.0;
+  double step_deg = 0.0;
+};
+
+// Of a grid around a tilt, those in the box. A parameter with a half-range of 0 stays.
+std::vector<Tilt> TiltsAround(const std::vector<Line>& lines,
+                              const TiltBox& box,
+                              const ViewAngles& middle,
+                              const TiltGrid& grid) {
+  const auto values = [&](double center, double half_range, double at) {
+    std::vector<double> result;
+    if (half_range <= 0.0) return std::vector<double>{center};
+    const double first = std::max(center - half_range, at - grid.reach_deg);
+    const double last = std::min(center + half_range, at + grid.reach_deg);
+    const int steps = std::max(1, static_cast<int>(std::ceil((last - first) / grid.step_deg)));
+    for (int i = 0; i <= steps; ++i) result.push_back(first + (last - first) * i / steps);
+    return result;
+  };
+  std::vector<Tilt> tilts;
+  for (const double pitch : values(box.center.pitch_deg, box.pitch_deg, middle.pitch_deg)) {
+    for (const double roll : values(box.center.roll_deg, box.roll_deg, middle.roll_deg)) {
+      tilts.push_back({pitch, roll, LogRatio(lines, {0.0, pitch, roll})});
+    }
+  }
+  return tilts;
+}
+
+// The best ones that are at least `separation_deg` apart, best first, at most `count`.
+std::vector<Tilt> Apart(std::vector<Tilt> tilts, double separation_deg, int count) {
+  std::stable_sort(tilts.begin(), tilts.end(), [](const Tilt& x, const Tilt& y) {
+    return x.log_ratio > y.log_ratio;
+  });
+  std::vector<Tilt> chosen;
+  for (const Tilt& tilt : tilts) {
+    if (static_cast<int>(chosen.size()) == count) break;
+    const bool is_near = std::any_of(chosen.begin(), chosen.end(), [&](const Tilt& other) {
+      return std::hypot(tilt.pitch_deg - other.pitch_deg, tilt.roll_deg - other.roll_deg) <
+             separation_deg;
+    });
+    if (!is_near) chosen.push_back(tilt);
+  }
+  return chosen;
+}
+
 }  // namespace
 
 std::vector<Tilt> FindTilts(std::span<const LineSegment> segments,
@@ -60,31 +112,19 @@ std::vector<Tilt> FindTilts(std::span<const LineSegment> segments,
   const std::vector<Line> lines = LinesOf(segments, camera);
   const bool searched = (pitch_half_range_deg > 0.0 || roll_half_range_deg > 0.0) && !lines.empty();
   if (!searched) return {{center.pitch_deg, center.roll_deg, 0.0}};
-  const int pitch_steps = static_cast<int>(std::ceil(pitch_half_range_deg / kStepDeg));
-  const int roll_steps = static_cast<int>(std::ceil(roll_half_range_deg / kStepDeg));
-  std::vector<Tilt> tilts;
-  for (int p = -pitch_steps; p <= pitch_steps; ++p) {
-    for (int r = -roll_steps; r <= roll_steps; ++r) {
-      Tilt tilt;
-      tilt.pitch_deg =
-          center.pitch_deg + (p == 0 ? 0.0 : pitch_half_range_deg * p / pitch_steps);
-      tilt.roll_deg = center.roll_deg + (r == 0 ? 0.0 : roll_half_range_deg * r / roll_steps);
-      tilt.log_ratio = LogRatio(lines, {0.0, tilt.pitch_deg, tilt.roll_deg});
-      tilts.push_back(tilt);
-    }
+  std::vector<Tilt> tilts = TiltsAround(
+      lines, {center, pitch_half_range_deg, roll_half_range_deg}, center, {180.0, kCoarseDeg});
+  // The best of the coarse ones, closely.
+  std::vector<Tilt> close;
+  for (const Tilt& tilt : Apart(std::move(tilts), 2.0 * kCoarseDeg, 4 * count)) {
+    const std::vector<Tilt> around =
+        TiltsAround(lines,
+                    {center, pitch_half_range_deg, roll_half_range_deg},
+                    {0.0, tilt.pitch_deg, tilt.roll_deg},
+                    {kCoarseDeg, kStepDeg});
+    close.insert(close.end(), around.begin(), around.end());
   }
-  std::stable_sort(tilts.begin(), tilts.end(),
-                   [](const Tilt& x, const Tilt& y) { return x.log_ratio > y.log_ratio; });
-  std::vector<Tilt> chosen;
-  for (const Tilt& tilt : tilts) {
-    if (static_cast<int>(chosen.size()) == count) break;
-    const bool is_near = std::any_of(chosen.begin(), chosen.end(), [&](const Tilt& other) {
-      return std::hypot(tilt.pitch_deg - other.pitch_deg, tilt.roll_deg - other.roll_deg) <
-             separation_deg;
-    });
-    if (!is_near) chosen.push_back(tilt);
-  }
-  return chosen;
+  return Apart(std::move(close), separation_deg, count);
 }
 
 }  // namespace ridgeline

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "localize/pose_space.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
@@ -24,6 +25,7 @@ void PoseSpaceOptions::Validate() const {
   CheckRange("east_m", east_m, kMaxRange);
   CheckRange("north_m", north_m, kMaxRange);
   CheckRange("height_m", height_m, kMaxRange);
+  CheckRange("camera_height_range_m", camera_height_range_m, kMaxRange);
   CheckRange("heading_deg", heading_deg, 180.0);
   CheckRange("pitch_deg", pitch_deg, 90.0);
   CheckRange("roll_deg", roll_deg, 180.0);
@@ -57,6 +59,7 @@ PoseSpace::PoseSpace(const PosePrior& prior,
     height_ = *prior.height_in_world - scene.model().origin_in_world.z();
     return;
   }
+  ranges_.height_m = std::max(ranges_.height_m, ranges_.camera_height_range_m);
   if (dtm_ == nullptr) {
     throw InputError("", "prior.position", "no height and no DTM", "a height or --dtm");
   }

@@ -20,12 +20,15 @@ struct PoseSpaceOptions {
   double north_m = 10.0;
   double height_m = 0.0;
   double heading_deg = 20.0;
-  double pitch_deg = 8.0;
-  double roll_deg = 8.0;
+  // As far as hands hold cameras: the picture's own vertical lines say where in it (gravity.h).
+  double pitch_deg = 20.0;
+  double roll_deg = 12.0;
   // How far a prior's pitch and roll are usually off [deg]: the scale of a Cauchy distribution.
-  double tilt_scale_deg = 2.0;
-  // Height of the camera above the terrain where the prior has no height [m].
+  double tilt_scale_deg = 8.0;
+  // Height of the camera above the terrain where the prior has no height [m], and how far it may
+  // be off then at least.
   double camera_height_m = 1.7;
+  double camera_height_range_m = 0.5;
   // Whether poses in a building's footprint and off the DTM are skipped.
   bool free_space = true;
 
@@ -39,6 +42,7 @@ struct PoseSpaceOptions {
     v.Field("roll_deg", roll_deg);
     v.Field("tilt_scale_deg", tilt_scale_deg);
     v.Field("camera_height_m", camera_height_m);
+    v.Field("camera_height_range_m", camera_height_range_m);
     v.Field("free_space", free_space);
   }
   // Throws InputError naming the field, e.g. "search.east_m".

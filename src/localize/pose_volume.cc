@@ -24,6 +24,11 @@ std::vector<double> Offsets(double half_range, double step) {
   return offsets;
 }
 
+// A height that is known to less than the spacing is left to the refinement.
+std::vector<double> HeightOffsets(double half_range, double step) {
+  return half_range < step ? std::vector<double>{0.0} : Offsets(half_range, step);
+}
+
 // The whole circle has no end: its last offset would be its first again.
 std::vector<double> HeadingOffsets(double half_range_deg, double step_deg) {
   std::vector<double> offsets = Offsets(half_range_deg, step_deg);
@@ -37,7 +42,7 @@ double SpacingOf(const PoseSpaceOptions& ranges, const MapOptions& options) {
   double spacing = options.spacing_m;
   const auto positions = [&] {
     return Offsets(ranges.east_m, spacing).size() * Offsets(ranges.north_m, spacing).size() *
-           Offsets(ranges.height_m, spacing).size();
+           HeightOffsets(ranges.height_m, spacing).size();
   };
   while (positions() > static_cast<std::size_t>(options.max_positions)) spacing *= 1.1;
   return spacing;
@@ -67,7 +72,7 @@ PoseVolume EmptyVolume(const PoseSpace& space,
   const double spacing_m = SpacingOf(ranges, options);
   volume.east_m = Offsets(ranges.east_m, spacing_m);
   volume.north_m = Offsets(ranges.north_m, spacing_m);
-  volume.height_m = Offsets(ranges.height_m, spacing_m);
+  volume.height_m = HeightOffsets(ranges.height_m, spacing_m);
   volume.heading_deg = HeadingOffsets(ranges.heading_deg, options.heading_step_deg);
   volume.tilts.assign(tilts.begin(), tilts.end());
   volume.log_ratios.assign(volume.positions() * volume.orientations(), kNone);
