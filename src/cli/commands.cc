@@ -9,6 +9,7 @@
 #include "cli/index.h"
 #include "cli/info.h"
 #include "cli/localize.h"
+#include "cli/options.h"
 #include "cli/render.h"
 #include "cli/skyline.h"
 #include "cli/study.h"
@@ -32,6 +33,7 @@ constexpr AddFunction kCommands[] = {
     AddSkylineCommand,
     AddAugmentCommand,
     AddSynthCommand,
+    AddOptionsCommand,
     AddDoctorCommand,
     AddCompletionCommand,
     AddVersionCommand,
