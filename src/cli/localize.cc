@@ -170,11 +170,17 @@ void CheckPlace(const Dataset& dataset,
                    "a place where a camera can be (or larger search.east_m, search.north_m)");
 }
 
+void PrintDoubts(const Localization& found, const Context& context) {
+  for (const std::string& doubt : found.doubts) context.Print("doubt       " + doubt);
+  for (const std::string& note : found.notes) context.Print("note        " + note);
+}
+
 void PrintResult(const BenchRun& run, const Context& context) {
   const Localization& found = run.localization;
   char line[200];
   if (!found.pose) {
     context.Print(run.record.query + ": abstained: " + found.reason);
+    PrintDoubts(found, context);
     return;
   }
   const Eigen::Vector3d& c = found.pose->center_in_world;
@@ -192,6 +198,16 @@ void PrintResult(const BenchRun& run, const Context& context) {
   std::snprintf(
       line, sizeof(line), "confidence  %.2f (energy %.4f)", found.confidence, found.energy);
   context.Print(line);
+  context.Print("status      " + StatusOf(found));
+  if (found.protection) {
+    std::snprintf(line,
+                  sizeof(line),
+                  "protection  %.1f m, %.1f deg (exceeded once in a thousand answers)",
+                  found.protection->position_m,
+                  found.protection->heading_deg);
+    context.Print(line);
+  }
+  PrintDoubts(found, context);
   if (run.record.error) {
     std::snprintf(line,
                   sizeof(line),

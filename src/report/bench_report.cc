@@ -126,6 +126,17 @@ std::vector<std::pair<std::string, std::string>> FactsOf(const BenchRun& run) {
     facts.emplace_back("heading, standard deviation",
                        Text("%.2f°", localization.spread.heading_sigma_deg));
   }
+  if (localization.goodness.is_known()) {
+    facts.emplace_back("edges seen, of what a right pose shows",
+                       Text("%.0f %%", 100.0 * localization.goodness.explained()));
+  }
+  if (localization.protection) {
+    facts.emplace_back("protection level (1 in 1000)",
+                       Text("%.1f m", localization.protection->position_m) +
+                           Text(", %.1f°", localization.protection->heading_deg));
+  }
+  for (const std::string& doubt : localization.doubts) facts.emplace_back("doubt", doubt);
+  for (const std::string& note : localization.notes) facts.emplace_back("note", note);
   for (const std::string& warning : localization.warnings) facts.emplace_back("warning", warning);
   return facts;
 }
@@ -138,6 +149,10 @@ ReportRun RunOf(const BenchRun& run, const Query& query, const Localizer& locali
   report.seed = run.record.seed;
   report.status = NameOf(localization.status);
   report.reason = localization.reason;
+  if (localization.pose && !localization.doubts.empty()) {
+    report.reason = "Doubts: " + localization.doubts.front() +
+                    (localization.doubts.size() > 1 ? ", and more below." : ".");
+  }
   report.outcome = OutcomeOf(run.record);
   report.energy = run.record.energy;
   report.confidence = run.record.confidence;
