@@ -22,6 +22,8 @@ constexpr double kAcceptedRisk = 1e-3;
 constexpr double kTellingNat = 4.0;
 constexpr double kMisfit = 0.25;
 constexpr double kRoofGainNat = 4.0;
+// An answer on the border of the box is as likely the nearest place to a truth beyond it.
+constexpr double kOnBorder = 0.5;
 // Below this the edges are not where they should be.
 constexpr double kExplained = 0.5;
 
@@ -114,8 +116,9 @@ void Believe(const SearchedPoses& found,
   result.confidence = result.goodness.is_known()
                           ? options.right.Probability(posterior.mass, result.goodness)
                           : posterior.mass;
+  if (IsOnBorder(best.offset, space)) result.confidence *= kOnBorder;
   result.protection.reset();
-  if (result.goodness.is_known()) {
+  if (result.goodness.is_known() && !IsOnBorder(best.offset, space)) {
     result.protection = ProtectionOf(result.spread,
                                      options.gross.Probability(posterior.mass, result.goodness));
   }

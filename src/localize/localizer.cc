@@ -215,7 +215,7 @@ Localization Localizer::Localize(const LocalizationInput& input,
     const bool is_explained =
         !found.modes.empty() && result.confidence >= options.confidence.doubtful_below;
     if (is_last || (is_explained && LimitsReached(best, space).empty())) break;
-    const PoseSpaceOptions wider = Widened(space, best, !is_explained);
+    const PoseSpaceOptions wider = Widened(space, best, !is_explained && widening == 0);
     if (wider == space.ranges()) break;
     box = wider;
     result.notes.push_back("searched further: " + WordsOf(box));

@@ -41,9 +41,9 @@ struct SearchOptions {
   SamplerOptions sampler;
   // Whether the modes are refined on the exact score.
   bool refine = true;
-  // How often the box is made wider where no pose of it explains the picture, or the answer lies on
-  // a limit; fixed parameters stay fixed.
-  int widenings = 1;
+  // How often the box is made wider: once where no pose of it explains the picture, again where the
+  // answer lies on a limit; fixed parameters stay fixed.
+  int widenings = 2;
   // "compass": on the score alone. "fit": the best mode is then fitted by least squares.
   std::string refinement = "compass";
   PoseFitOptions fit;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 
 namespace ridgeline {
 namespace {
@@ -14,15 +15,16 @@ struct Parameter {
   double PoseSpace::Offset::*offset;
   double PoseSpaceOptions::*range;
   double whole;  // beyond which there is nothing to search
+  bool is_border;
 };
 
 constexpr Parameter kParameters[] = {
-    {"east", "m", &PoseSpace::Offset::east_m, &PoseSpaceOptions::east_m, 1000.0},
-    {"north", "m", &PoseSpace::Offset::north_m, &PoseSpaceOptions::north_m, 1000.0},
-    {"height", "m", &PoseSpace::Offset::height_m, &PoseSpaceOptions::height_m, 1000.0},
-    {"heading", "deg", &PoseSpace::Offset::heading_deg, &PoseSpaceOptions::heading_deg, 180.0},
-    {"pitch", "deg", &PoseSpace::Offset::pitch_deg, &PoseSpaceOptions::pitch_deg, 90.0},
-    {"roll", "deg", &PoseSpace::Offset::roll_deg, &PoseSpaceOptions::roll_deg, 180.0}};
+    {"east", "m", &PoseSpace::Offset::east_m, &PoseSpaceOptions::east_m, 1000.0, true},
+    {"north", "m", &PoseSpace::Offset::north_m, &PoseSpaceOptions::north_m, 1000.0, true},
+    {"height", "m", &PoseSpace::Offset::height_m, &PoseSpaceOptions::height_m, 1000.0, false},
+    {"heading", "deg", &PoseSpace::Offset::heading_deg, &PoseSpaceOptions::heading_deg, 180.0, true},
+    {"pitch", "deg", &PoseSpace::Offset::pitch_deg, &PoseSpaceOptions::pitch_deg, 90.0, false},
+    {"roll", "deg", &PoseSpace::Offset::roll_deg, &PoseSpaceOptions::roll_deg, 180.0, false}};
 
 // The truth is not in a box of that size: the next is larger by this much.
 constexpr double kFurtherM = 30.0;
@@ -49,6 +51,12 @@ std::vector<std::string> LimitsReached(const PoseSpace::Offset& offset, const Po
     names.emplace_back(text);
   }
   return names;
+}
+
+bool IsOnBorder(const PoseSpace::Offset& offset, const PoseSpace& space) {
+  return std::any_of(std::begin(kParameters), std::end(kParameters), [&](const Parameter& p) {
+    return p.is_border && IsReached(p, offset, space);
+  });
 }
 
 PoseSpaceOptions Widened(const PoseSpace& space, const PoseSpace::Offset& offset, bool everywhere) {

@@ -12,6 +12,10 @@ namespace ridgeline {
 // (8 deg)"). Fixed parameters, and the whole circle of headings, have no limit.
 std::vector<std::string> LimitsReached(const PoseSpace::Offset& offset, const PoseSpace& space);
 
+// Whether the offset lies on the border of the searched area or of the searched headings: the truth
+// is likely beyond.
+bool IsOnBorder(const PoseSpace::Offset& offset, const PoseSpace& space);
+
 // A box that reaches further, since the truth is not in this one: in position where `everywhere`,
 // with any heading, else in the parameters on whose limits the offset lies. Fixed parameters stay.
 PoseSpaceOptions Widened(const PoseSpace& space, const PoseSpace::Offset& offset, bool everywhere);
