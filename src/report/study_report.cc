@@ -296,11 +296,13 @@ ReportData StudyReport(const ReportOrigin& origin,
   for (const ScoreStudy& study : studies) {
     runs.push_back(RunOf(names.dataset.queries[study.query], study, options));
   }
+  PictureReader pictures;
   ReportData data = BenchReport(origin,
                                 names.dataset.queries,
                                 localizer,
                                 RangesOf(localizer.options().search.space, options.perturb),
-                                runs);
+                                runs,
+                                pictures);
   data.facts = {{"queries", std::to_string(studies.size() / names.scores.size())},
                 {"scores", std::to_string(names.scores.size())},
                 {"prior drawn within",
