@@ -78,7 +78,7 @@ TEST(Options, WrongTypesAreNamed) {
   EXPECT_EQ(MessageOf([&] { SetOption("inner.count=1.5", Visitor(options)); }),
             "--set: inner.count: got 1.5, expected a whole number");
   EXPECT_EQ(MessageOf([&] { SetOption("inner=4", Visitor(options)); }),
-            "--set: inner: got 4, expected an object { ... }");
+            "--set: inner: got 4, expected an object { \"count\": ..., ... }");
   EXPECT_EQ(MessageOf([&] { SetOption("length_px", Visitor(options)); }),
             "--set: got \"length_px\", expected path.to.key=value");
 }

@@ -173,8 +173,8 @@ TEST(ScoreOptions, WeightsHaveNames) {
     }
     return "";
   };
-  EXPECT_EQ(refusal("score.weights.skies=1"),
-            "--set: score.weights.skies: got an unknown key, expected e.g. \"score.weights.sky\"");
+  EXPECT_EQ(refusal("score.weights.skyy=1"),
+            "--set: score.weights.skyy: got an unknown key, expected e.g. \"score.weights.sky\"");
   EXPECT_EQ(refusal("score.weights=[1,2]"),
             "--set: score.weights: got [1,2], expected an object { \"skyline_edges\": ..., ... }");
   EXPECT_EQ(refusal("score.weights.sky=-1"),
