@@ -32,7 +32,7 @@ class StreetLife {
     const Vector2d along = (end - start).normalized();
     const Vector2d inward(-along.y(), along.x());
     const double length = (end - start).norm();
-    const double tree_share = random.Uniform() < 0.5 ? 0.35 : 0.0;
+    const double tree_share = random.Uniform() < 0.5 ? 0.35 * town_.options.trees : 0.0;
     const double car_share = random.Uniform(0.15, 0.6);
     for (double at = 4.0; at < length - 4.0; at += 7.0) {
       const Vector2d curb = start + at * along;

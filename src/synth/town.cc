@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "synth/town_block.h"
+#include "synth/town_style.h"
 
 namespace ridgeline {
 namespace {
@@ -29,6 +30,8 @@ void TownOptions::Validate() const {
   Require(blocks_north > 0 && blocks_north <= 1000, "blocks_north", blocks_north, "1 to 1000");
   Require(block_m >= 60.0 && block_m <= 200.0, "block_m", block_m, "60 to 200 m");
   Require(relief_m >= 0.0 && relief_m <= 30.0, "relief_m", relief_m, "0 to 30 m");
+  Require(trees >= 0.0 && trees <= 2.0, "trees", trees, "0 to 2");
+  FindTownStyle(style);
 }
 
 std::array<Eigen::Vector2d, 4> TownBuilding::Footprint() const {

@@ -23,6 +23,11 @@ struct TownOptions {
   double block_m = 80.0;
   // Height of the hills [m]; 0: level ground.
   double relief_m = 4.0;
+  // Kind of town: "mixed", "suburb" (detached, low), "centre" (closed rows, high), "village",
+  // "estate" (long flat blocks).
+  std::string style = "mixed";
+  // Trees along the streets, as a factor on the usual number.
+  double trees = 1.0;
 
   void Visit(OptionVisitor& v) {
     v.Field("seed", seed);
@@ -30,6 +35,8 @@ struct TownOptions {
     v.Field("blocks_north", blocks_north);
     v.Field("block_m", block_m);
     v.Field("relief_m", relief_m);
+    v.Field("style", style);
+    v.Field("trees", trees);
   }
   // Throws InputError naming the field, e.g. "town.block_m".
   void Validate() const;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/random.h"
+#include "synth/town_style.h"
 
 namespace ridgeline {
 namespace {
@@ -63,6 +64,7 @@ class BlockBuilder {
  public:
   BlockBuilder(int column, int row, Town& town)
       : town_(town),
+        style_(FindTownStyle(town.options.style)),
         random_(static_cast<std::uint64_t>(town.options.seed),
                 kBlockStage,
                 (static_cast<std::uint64_t>(column) << 32) | static_cast<std::uint32_t>(row)),
@@ -80,7 +82,7 @@ class BlockBuilder {
 
   void Build() {
     town_.blocks.push_back({curb_});
-    if (random_.Uniform() < 0.3) AddChurch();
+    if (random_.Uniform() < style_.church_share) AddChurch();
     for (const int side : {0, 2}) AddRow(side, kCornerMarginM);
     for (const int side : {1, 3}) AddRow(side, kCornerRoomM);
   }
@@ -100,8 +102,10 @@ class BlockBuilder {
     const Vector2d end = front_[(side + 1) % 4];
     const Vector2d along = (end - start).normalized();
     const double length = (end - start).norm() - margin_m;
-    const bool terraced = random_.Uniform() < 0.6;
-    const double setback = random_.Uniform() < 0.6 ? 0.0 : random_.Uniform(0.5, 3.0);
+    const bool terraced = random_.Uniform() < style_.terraced_share;
+    const double setback = random_.Uniform() < style_.at_pavement_share
+                               ? 0.0
+                               : random_.Uniform(0.5, style_.most_setback_m);
     double at = margin_m;
     while (length - at > 8.0) {
       TownBuilding building = DrawBuilding();
@@ -111,7 +115,7 @@ class BlockBuilder {
       building.center = start + (at + 0.5 * building.length_m) * along +
                         (back + 0.5 * building.depth_m) * Left(along);
       at += building.length_m +
-            (terraced && random_.Uniform() < 0.85 ? 0.0 : random_.Uniform(2.5, 7.0));
+            (terraced && random_.Uniform() < 0.85 ? 0.0 : random_.Uniform(2.5, style_.most_gap_m));
       PutOnGround(building);
       if (Add(building) && random_.Uniform() < 0.3) AddAnnex();
     }
@@ -119,14 +123,14 @@ class BlockBuilder {
 
   TownBuilding DrawBuilding() {
     TownBuilding building;
-    building.length_m = random_.Uniform(9.0, 19.0);
-    building.depth_m = random_.Uniform(9.0, 13.0);
-    building.storeys = 2 + static_cast<int>(random_.Below(4));
+    building.length_m = random_.Uniform(style_.length_m[0], style_.length_m[1]);
+    building.depth_m = random_.Uniform(style_.depth_m[0], style_.depth_m[1]);
+    building.storeys = style_.fewest_storeys + static_cast<int>(random_.Below(style_.storeys));
     const double kind = random_.Uniform();
-    building.roof = kind < 0.45   ? RoofType::kGable
-                    : kind < 0.70 ? RoofType::kHip
-                    : kind < 0.90 ? RoofType::kFlat
-                                  : RoofType::kShed;
+    building.roof = kind < style_.gable_below  ? RoofType::kGable
+                    : kind < style_.hip_below  ? RoofType::kHip
+                    : kind < style_.flat_below ? RoofType::kFlat
+                                               : RoofType::kShed;
     building.ridge_along_x = random_.Uniform() < 0.75;
     building.look = random_.Next();
     return building;
@@ -220,6 +224,7 @@ class BlockBuilder {
   }
 
   Town& town_;
+  const TownStyle& style_;
   Random random_;
   std::string prefix_;
   std::size_t first_;

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
@@ -51,7 +52,8 @@ class DatasetWriter {
       : options_(options), folder_(std::move(folder)), threads_(threads), progress_(progress) {
     const TownOptions& town = options.town;
     tiled_ = town.blocks_east > kPictureBlocks || town.blocks_north > kPictureBlocks;
-    pictures_ = options.street + options.tilted + options.portrait + options.drone;
+    pictures_ = options.street + options.tilted + options.portrait + options.drone + options.low +
+                options.nadir;
     const auto tiles = [](int blocks) { return (blocks + kTileBlocks - 1) / kTileBlocks; };
     models_ = tiled_ ? tiles(town.blocks_east) * tiles(town.blocks_north) : 1;
   }
@@ -88,8 +90,9 @@ class DatasetWriter {
   }
 
   void WriteTile(const Town& town, const fs::path& file) {
-    WriteCityGml(SurveyedTown(town, options_.survey_sigma_m), file);
-    summary_.buildings += town.buildings.size();
+    const Town model = ModelledTown(SurveyedTown(town, options_.survey_sigma_m), options_.trouble);
+    WriteCityGml(model, file);
+    summary_.buildings += model.buildings.size();
     ++summary_.model_files;
     FileDone();
   }
@@ -114,14 +117,17 @@ class DatasetWriter {
     const int north = std::min(o.blocks_north, kPictureBlocks);
     const int column = (o.blocks_east - east) / 2;
     const int row = (o.blocks_north - north) / 2;
-    const Town town = MakeTownPart(o, column, row, column + east, row + north);
+    const Town town =
+        StandingTown(MakeTownPart(o, column, row, column + east, row + north), options_.trouble);
     const TownRenderer renderer(town, options_.overhang_m);
     fs::create_directory(folder_ / "images");
     Json queries = Json::array();
     const std::vector<std::pair<ViewKind, int>> sets = {{ViewKind::kStreet, options_.street},
                                                         {ViewKind::kTilted, options_.tilted},
                                                         {ViewKind::kPortrait, options_.portrait},
-                                                        {ViewKind::kDrone, options_.drone}};
+                                                        {ViewKind::kDrone, options_.drone},
+                                                        {ViewKind::kLow, options_.low},
+                                                        {ViewKind::kNadir, options_.nadir}};
     for (const auto& [kind, count] : sets) {
       for (int i = 0; i < count; ++i) queries.push_back(WritePicture(town, renderer, kind, i));
     }
@@ -138,17 +144,21 @@ class DatasetWriter {
     std::snprintf(number, sizeof number, "_%03d", index);
     const std::string id = ViewKindName(kind) + std::string(number);
     Random random(static_cast<std::uint64_t>(town.options.seed), kViewStage, HashText(id));
-    const Viewpoint view =
-        DrawViewpoint(town, renderer, kind, options_.width, options_.height, random);
+    Viewpoint view = DrawViewpoint(
+        town, renderer, kind, {options_.width, options_.height, options_.one_camera}, random);
     const Weather weather = DrawWeather(random);
-    const cv::Mat photo = DevelopPhoto(
+    cv::Mat photo = DevelopPhoto(
         renderer.Render(view.camera, view.cam_from_local, weather, threads_), random.Next());
+    if (options_.grey) cv::cvtColor(photo, photo, cv::COLOR_BGR2GRAY);
     std::vector<uchar> jpeg;
     cv::imencode(".jpg", photo, jpeg, {cv::IMWRITE_JPEG_QUALITY, options_.jpeg_quality});
     const std::string image = "images/" + id + ".jpg";
     WriteFileAtomically(folder_ / image, {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()});
     ++summary_.pictures;
     FileDone();
+    const double factor = FocalFactor(options_.trouble, town.options.seed, HashText(id));
+    view.camera.params[0] *= factor;
+    view.camera.params[1] *= factor;
     return QueryJson(town, kind, id, image, view);
   }
 
@@ -188,9 +198,8 @@ class DatasetWriter {
     const double tilt = options_.prior_tilt_deg;
     const double pitch = angles.pitch_deg + random.Uniform(-tilt, tilt);
     const double roll = angles.roll_deg + random.Uniform(-tilt, tilt);
-    const double height = kind == ViewKind::kDrone
-                              ? truth.center_in_world.z() + random.Uniform(-1.0, 1.0)
-                              : town.TerrainHeight(xy) + 1.7;
+    const double height = IsFromTheAir(kind) ? truth.center_in_world.z() + random.Uniform(-1.0, 1.0)
+                                             : town.TerrainHeight(xy) + 1.7;
     return {{"position", PositionJson(town.origin_in_world + Vector3d(xy.x(), xy.y(), height))},
             {"heading_deg", RoundedTo(WrapHeadingDeg(heading), 3)},
             {"pitch_deg", RoundedTo(pitch, 3)},
@@ -212,10 +221,13 @@ class DatasetWriter {
 
 void TownDatasetOptions::Validate() const {
   town.Validate();
+  trouble.Validate();
   Require(street >= 0 && street <= 1000, "street", street, "0 to 1000");
   Require(tilted >= 0 && tilted <= 1000, "tilted", tilted, "0 to 1000");
   Require(portrait >= 0 && portrait <= 1000, "portrait", portrait, "0 to 1000");
   Require(drone >= 0 && drone <= 1000, "drone", drone, "0 to 1000");
+  Require(low >= 0 && low <= 1000, "low", low, "0 to 1000");
+  Require(nadir >= 0 && nadir <= 1000, "nadir", nadir, "0 to 1000");
   Require(width >= 64 && width <= 10000, "width", width, "64 to 10000 px");
   Require(height >= 64 && height <= 10000, "height", height, "64 to 10000 px");
   Require(jpeg_quality >= 1 && jpeg_quality <= 100, "jpeg_quality", jpeg_quality, "1 to 100");

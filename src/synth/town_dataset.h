@@ -7,6 +7,7 @@
 
 #include "base/options.h"
 #include "synth/town.h"
+#include "synth/trouble.h"
 
 namespace ridgeline {
 
@@ -17,14 +18,21 @@ struct TownDatasetOptions {
   int tilted = 2;
   int portrait = 2;
   int drone = 2;
+  int low = 0;    // from 10 to 40 m, between and over the houses
+  int nadir = 0;  // from 25 to 60 m, straight down
   // Size of the pictures [px]; portraits are turned.
   int width = 1280;
   int height = 960;
   int jpeg_quality = 90;
+  // One camera for all pictures; else each has its own.
+  bool one_camera = false;
+  // Pictures without colour, as of a thermal camera.
+  bool grey = false;
   // Mean overhang of the eaves, which the model does not have [m].
   double overhang_m = 0.3;
   // Errors of the model: sigma of each building's east, north and roof height [m].
   double survey_sigma_m = 0.05;
+  TroubleOptions trouble;
   // Half-ranges of the priors around the truth: position, heading, pitch and roll.
   double prior_m = 10.0;
   double prior_heading_deg = 20.0;
@@ -36,11 +44,16 @@ struct TownDatasetOptions {
     v.Field("tilted", tilted);
     v.Field("portrait", portrait);
     v.Field("drone", drone);
+    v.Field("low", low);
+    v.Field("nadir", nadir);
     v.Field("width", width);
     v.Field("height", height);
     v.Field("jpeg_quality", jpeg_quality);
+    v.Field("one_camera", one_camera);
+    v.Field("grey", grey);
     v.Field("overhang_m", overhang_m);
     v.Field("survey_sigma_m", survey_sigma_m);
+    v.Group("trouble", [&](OptionVisitor& g) { trouble.Visit(g); });
     v.Field("prior_m", prior_m);
     v.Field("prior_heading_deg", prior_heading_deg);
     v.Field("prior_tilt_deg", prior_tilt_deg);

@@ -38,8 +38,19 @@ std::pair<Vector2d, Vector2d> DrawStreetPoint(const Town& town, Random& random) 
   return {point, along};
 }
 
-Viewpoint Draw(const Town& town, ViewKind kind, int width, int height, Random& random) {
-  const bool drone = kind == ViewKind::kDrone;
+CameraIntrinsics CameraFor(ViewKind kind, const ViewCamera& camera, int seed, Random& random) {
+  constexpr std::uint64_t kCameraStage = 0x82;
+  const bool portrait = kind == ViewKind::kPortrait;
+  const int width = portrait ? camera.height : camera.width;
+  const int height = portrait ? camera.width : camera.height;
+  Random once(static_cast<std::uint64_t>(seed), kCameraStage);
+  Random& drawn = camera.same_for_all ? once : random;
+  const double hfov_deg = portrait ? drawn.Uniform(48.0, 56.0) : drawn.Uniform(55.0, 68.0);
+  return DrawCamera(width, height, hfov_deg, drawn);
+}
+
+Viewpoint Draw(const Town& town, ViewKind kind, const ViewCamera& camera, Random& random) {
+  const bool drone = IsFromTheAir(kind);
   const auto [point, along] = DrawStreetPoint(town, random);
   const double street_deg = std::atan2(along.x(), along.y()) * kDegPerRad;
   ViewAngles angles;
@@ -66,21 +77,33 @@ Viewpoint Draw(const Town& town, ViewKind kind, int width, int height, Random& r
       angles.roll_deg = random.Uniform(-2.0, 2.0);
       above_m = random.Uniform(40.0, 60.0);
       break;
+    case ViewKind::kLow:
+      angles.pitch_deg = random.Uniform(-50.0, -5.0);
+      angles.roll_deg = random.Uniform(-2.0, 2.0);
+      above_m = random.Uniform(10.0, 40.0);
+      break;
+    case ViewKind::kNadir:
+      angles.pitch_deg = random.Uniform(-89.5, -80.0);
+      angles.roll_deg = random.Uniform(-2.0, 2.0);
+      above_m = random.Uniform(25.0, 60.0);
+      break;
   }
-  if (kind == ViewKind::kPortrait) std::swap(width, height);
-  const double hfov_deg =
-      kind == ViewKind::kPortrait ? random.Uniform(48.0, 56.0) : random.Uniform(55.0, 68.0);
   Viewpoint view;
-  view.camera = DrawCamera(width, height, hfov_deg, random);
+  view.camera = CameraFor(kind, camera, town.options.seed, random);
   view.cam_from_local.cam_from_world = CamFromWorld(angles);
   view.cam_from_local.center_in_world =
       Eigen::Vector3d(point.x(), point.y(), town.TerrainHeight(point) + above_m);
   return view;
 }
 
-bool IsGood(const Town& town, const Viewpoint& view, const ViewStatistics& seen, bool drone) {
+bool IsGood(const Town& town, const Viewpoint& view, const ViewStatistics& seen, ViewKind kind) {
   const Vector2d xy = view.cam_from_local.center_in_world.head<2>();
-  if (drone) return seen.building_share > 0.35 && seen.buildings >= 4;
+  if (kind == ViewKind::kDrone) return seen.building_share > 0.35 && seen.buildings >= 4;
+  // Lower ones must not be in a roof, and see less at once.
+  if (kind == ViewKind::kLow || kind == ViewKind::kNadir) {
+    return !town.InBuilding(xy, 1.0) && seen.building_share > 0.3 && seen.buildings >= 2 &&
+           seen.nearest_m > 4.0;
+  }
   return !town.InBuilding(xy, 0.7) && seen.building_share > 0.2 && seen.buildings >= 3 &&
          seen.skyline_share > 0.6 && seen.sky_share < 0.6 && seen.nearest_m > 3.0 &&
          seen.median_building_m > 12.0;
@@ -98,20 +121,27 @@ const char* ViewKindName(ViewKind kind) {
       return "portrait";
     case ViewKind::kDrone:
       return "drone";
+    case ViewKind::kLow:
+      return "low";
+    case ViewKind::kNadir:
+      return "nadir";
   }
   return "";
+}
+
+bool IsFromTheAir(ViewKind kind) {
+  return kind == ViewKind::kDrone || kind == ViewKind::kLow || kind == ViewKind::kNadir;
 }
 
 Viewpoint DrawViewpoint(const Town& town,
                         const TownRenderer& renderer,
                         ViewKind kind,
-                        int width,
-                        int height,
+                        const ViewCamera& camera,
                         Random& random) {
   for (;;) {
-    const Viewpoint view = Draw(town, kind, width, height, random);
+    const Viewpoint view = Draw(town, kind, camera, random);
     const ViewStatistics seen = renderer.Probe(view.camera, view.cam_from_local);
-    if (IsGood(town, view, seen, kind == ViewKind::kDrone)) return view;
+    if (IsGood(town, view, seen, kind)) return view;
   }
 }
 

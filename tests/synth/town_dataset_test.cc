@@ -159,6 +159,58 @@ TEST(TownDataset, PictureShowsTheModelAtItsPose) {
   EXPECT_GT(sky_bright / sky, wall_bright / wall + 25.0);
 }
 
+TEST(TownDataset, LowDronesAndDronesLookingDown) {
+  TownDatasetOptions options = SmallOptions();
+  options.street = options.portrait = options.drone = 0;
+  options.low = options.nadir = 3;
+  options.grey = true;
+  const Dataset dataset = ReadDataset(Write("low", options, 2) / "dataset.json");
+  const Town town = MakeTown(options.town);
+  ASSERT_EQ(dataset.queries.size(), 6u);
+  for (const Query& query : dataset.queries) {
+    const Eigen::Vector3d local = query.truth->center_in_world - town.origin_in_world;
+    const double above_m = local.z() - town.TerrainHeight(local.head<2>());
+    const double pitch_deg = ViewAnglesOf(query.truth->cam_from_world).pitch_deg;
+    if (query.set == "low") {
+      EXPECT_GE(above_m, 10.0 - 1e-3);
+      EXPECT_LE(above_m, 40.0 + 1e-3);
+      EXPECT_FALSE(town.InBuilding(local.head<2>()));
+    } else {
+      EXPECT_EQ(query.set, "nadir");
+      EXPECT_LE(pitch_deg, -80.0 + 1e-6);
+    }
+    EXPECT_EQ(cv::imread(query.image.string(), cv::IMREAD_UNCHANGED).channels(), 1);
+  }
+}
+
+TEST(TownDataset, OneCameraTakesAllPicturesIfWanted) {
+  TownDatasetOptions options = SmallOptions();
+  options.street = 3;
+  options.portrait = options.drone = 0;
+  const Dataset many = ReadDataset(Write("many cameras", options, 2) / "dataset.json");
+  EXPECT_NE(many.queries[0].camera->params, many.queries[1].camera->params);
+  options.one_camera = true;
+  const Dataset one = ReadDataset(Write("one camera", options, 2) / "dataset.json");
+  EXPECT_EQ(one.queries[0].camera->params, one.queries[1].camera->params);
+  EXPECT_EQ(one.queries[0].camera->params, one.queries[2].camera->params);
+}
+
+TEST(TownDataset, AWrongFocalLengthIsInTheCameraFileAndNotInThePicture) {
+  TownDatasetOptions options = SmallOptions();
+  options.portrait = options.drone = 0;
+  const fs::path right = Write("right focal", options, 2);
+  options.trouble.focal_share = 0.05;
+  const fs::path wrong = Write("wrong focal", options, 2);
+  EXPECT_EQ(ReadFile(right / "images/street_000.jpg"), ReadFile(wrong / "images/street_000.jpg"));
+  const Query a = ReadDataset(right / "dataset.json").queries[0];
+  const Query b = ReadDataset(wrong / "dataset.json").queries[0];
+  const double factor = b.camera->params[0] / a.camera->params[0];
+  EXPECT_NE(factor, 1.0);
+  EXPECT_NEAR(factor, 1.0, 0.05);
+  EXPECT_NEAR(b.camera->params[1] / a.camera->params[1], factor, 1e-12);
+  EXPECT_EQ(b.camera->params[2], a.camera->params[2]);
+}
+
 TEST(TownDataset, LargeTownsComeInTiles) {
   TownDatasetOptions options;
   options.town.blocks_east = 14;
