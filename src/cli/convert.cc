@@ -108,7 +108,8 @@ int RunConvert(const ConvertArguments& arguments, const Context& context) {
       arguments.from.empty() ? FormatOfInput(arguments.inputs.front()) : arguments.from;
   Dataset dataset = ReadInput(arguments.inputs.front(), from, options);
   for (std::size_t i = 1; i < arguments.inputs.size(); ++i) {
-    Merge(ReadInput(arguments.inputs[i], "", options), dataset);
+    const std::string format = FormatOfInput(arguments.inputs[i]);
+    Merge(ReadInput(arguments.inputs[i], format, options), format == "results", dataset);
   }
   RefuseIdle(arguments, from, to);
   RefuseIdleCamera(options.camera, dataset);

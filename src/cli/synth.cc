@@ -13,6 +13,8 @@
 #include "base/error.h"
 #include "cli/command.h"
 #include "cli/progress.h"
+#include "convert/egeniouss.h"
+#include "input/dataset.h"
 #include "synth/town_dataset.h"
 #include "synth/walk.h"
 
@@ -30,6 +32,7 @@ struct SynthArguments {
   std::optional<int> buildings;
   bool overwrite = false;
   std::vector<std::string> set;
+  std::string layout;
   TownDatasetOptions options;
   int walk_frames = 0;
   WalkOptions walk;
@@ -73,6 +76,25 @@ void RefuseTownPictures(const TownDatasetOptions& options) {
   if (options.drone != defaults.drone) refuse("--drone");
 }
 
+constexpr const char* kEgeniouss = "egenioussbench";
+
+// Upright pictures of one phone, as that benchmark has them.
+void ChooseEgeniouss(TownDatasetOptions& options) {
+  options.portrait = options.street;
+  options.street = options.tilted = options.drone = 0;
+  options.one_camera = true;
+}
+
+// Puts the dataset of a finished folder into the benchmark's layout, in a folder in its place.
+fs::path InEgenioussLayout(const fs::path& town, int seed, const fs::path& out) {
+  const fs::path folder = TemporaryBeside(out);
+  fs::create_directory(folder);
+  WriteEgenioussFolder(
+      ReadDataset(town / "dataset.json"), static_cast<std::uint64_t>(seed), folder);
+  fs::remove_all(town);
+  return folder;
+}
+
 int RunSynth(SynthArguments& arguments, const Context& context) {
   TownDatasetOptions& options = arguments.options;
   WalkOptions& walk = arguments.walk;
@@ -88,6 +110,8 @@ int RunSynth(SynthArguments& arguments, const Context& context) {
         static_cast<int>(std::ceil(std::sqrt(*arguments.buildings / kBuildingsPerBlock)));
     options.town.blocks_east = options.town.blocks_north = std::max(1, side);
   }
+  const bool is_egeniouss = !arguments.layout.empty();
+  if (is_egeniouss) ChooseEgeniouss(options);
   walk.town = options.town;
   walk.frames = arguments.walk_frames;
   for (const std::string& assignment : arguments.set) {
@@ -98,7 +122,7 @@ int RunSynth(SynthArguments& arguments, const Context& context) {
   if (!out.has_filename()) out = out.parent_path();
   CheckTarget(out, arguments.overwrite);
 
-  const fs::path temporary = TemporaryBeside(out);
+  fs::path temporary = TemporaryBeside(out);
   fs::create_directory(temporary);
   std::unique_ptr<Progress> progress;
   const auto show = [&](std::size_t done, std::size_t total) {
@@ -109,6 +133,7 @@ int RunSynth(SynthArguments& arguments, const Context& context) {
       is_walk ? WriteWalkDataset(walk, temporary, context.threads, show)
               : WriteTownDataset(options, temporary, context.threads, show);
   progress.reset();
+  if (is_egeniouss) temporary = InEgenioussLayout(temporary, options.town.seed, out);
   Commit(temporary, out);
 
   const fs::path dataset = fs::path(arguments.out) / "dataset.json";
@@ -122,7 +147,9 @@ int RunSynth(SynthArguments& arguments, const Context& context) {
   }
   context.Print("Town of " + std::to_string(summary.buildings) + " buildings and parts, " +
                 std::to_string(summary.pictures) + " pictures, in " + arguments.out);
-  if (is_walk) {
+  if (is_egeniouss) {
+    context.Print("Next: ridgeline convert " + arguments.out + " --out DATASET.json");
+  } else if (is_walk) {
     const fs::path sensors = fs::path(arguments.out) / "sensors.csv";
     context.Print("Next: ridgeline skyline --dataset " + dataset.string() + " --sensors " +
                   sensors.string() + " --out DIR");
@@ -154,6 +181,11 @@ void AddSynthCommand(CLI::App& app, Context& context) {
   command->add_option("--drone", options.drone, "Pictures from a drone")->capture_default_str();
   command->add_option("--walk", arguments->walk_frames, "Instead: frames of a hand-held walk")
       ->type_name("FRAMES");
+  command
+      ->add_option("--layout", arguments->layout, "Upright pictures in another benchmark's folders")
+      ->check(CLI::IsMember(std::vector<std::string>{kEgeniouss}))
+      ->excludes("--walk")
+      ->type_name("NAME");
   command->add_option("--size", arguments->size, "Size of the pictures [1280x960; walk 640x480]")
       ->type_name("WxH");
   command->add_option(

@@ -11,6 +11,7 @@
 #include "convert/angle_table.h"
 #include "convert/colmap_model.h"
 #include "convert/dataset_json.h"
+#include "convert/egeniouss.h"
 #include "convert/globe_files.h"
 #include "convert/lod_loc.h"
 #include "convert/opensfm.h"
@@ -26,10 +27,9 @@ namespace fs = std::filesystem;
 
 constexpr const char* kExpected =
     "a dataset.json, a COLMAP folder (cameras.txt, images.txt), a LoD-Loc folder (intrinsic.txt), "
-    "a "
-    "list of visuallocalization.net, a reconstruction.json of OpenSfM, a table with omega, phi, "
-    "kappa, "
-    "or results of bench or localize (--from FORMAT tells which)";
+    "the folder of egenioussBench, a list of visuallocalization.net, a reconstruction.json of "
+    "OpenSfM, a table with omega, phi, kappa, or results of bench or localize (--from FORMAT tells "
+    "which)";
 
 bool IsFile(const fs::path& path) {
   std::error_code error;
@@ -72,6 +72,7 @@ const std::map<std::string, Reader>& Readers() {
       {"dataset", ReadDatasetFile},
       {"colmap", ReadColmapModel},
       {"visloc", ReadVisualLocalizationList},
+      {"egeniouss", ReadEgeniouss},
       {"lodloc", ReadLodLoc},
       {"opensfm", ReadOpenSfm},
       {"opk", ReadAngleTable},
@@ -122,7 +123,8 @@ const std::vector<std::string>& InputFormats() {
 }
 
 const std::vector<std::string>& OutputFormats() {
-  static const std::vector<std::string> formats = {"colmap", "dataset", "geojson", "kml", "tum"};
+  static const std::vector<std::string> formats = {
+      "colmap", "dataset", "egeniouss", "geojson", "kml", "tum"};
   return formats;
 }
 
@@ -133,6 +135,7 @@ std::string FormatOfInput(const fs::path& path) {
   if (fs::is_directory(path, error)) {
     if (IsFile(path / "images.txt")) format = "colmap";
     if (IsFile(path / "intrinsic.txt")) format = "lodloc";
+    if (IsEgenioussFolder(path)) format = "egeniouss";
   } else if (path.extension() == ".json") {
     format = FormatOfJson(path);
   } else {
@@ -169,7 +172,10 @@ Dataset ReadInput(const fs::path& path, const std::string& format, const Convert
   return dataset;
 }
 
-void Merge(const Dataset& more, Dataset& dataset) {
+void Merge(const Dataset& more, bool is_results, Dataset& dataset) {
+  if (is_results) {
+    for (Query& query : dataset.queries) query.truth.reset();
+  }
   std::map<std::string, Query*> known;
   const auto name = [&](const std::string& text, Query& query) { known.emplace(text, &query); };
   for (Query& query : dataset.queries) name(query.id, query);
@@ -211,6 +217,7 @@ std::size_t WriteOutput(const Dataset& dataset,
         dataset.file.string(), "", "no picture with a pose", "poses to write as " + format);
   }
   if (format == "colmap") return WriteColmapModel(dataset, options, path);
+  if (format == "egeniouss") WriteFileAtomically(path, EgenioussPoses(dataset));
   if (format == "geojson") WriteFileAtomically(path, PosesGeoJson(dataset));
   if (format == "kml") WriteFileAtomically(path, PosesKml(dataset));
   if (format == "tum") WriteFileAtomically(path, TumTrajectory(dataset));

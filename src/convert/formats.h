@@ -10,11 +10,12 @@
 
 namespace ridgeline {
 
-// Formats that are read: "dataset", "colmap", "visloc" (visuallocalization.net), "lodloc",
-// "opensfm", "opk" (omega, phi, kappa), "results".
+// Formats that are read: "dataset", "colmap", "egeniouss" (egenioussBench), "visloc"
+// (visuallocalization.net), "lodloc", "opensfm", "opk" (omega, phi, kappa), "results".
 const std::vector<std::string>& InputFormats();
 
-// Formats that are written: "dataset", "colmap", "geojson", "kml", "tum".
+// Formats that are written: "dataset", "colmap", "egeniouss" (a submission), "geojson", "kml",
+// "tum".
 const std::vector<std::string>& OutputFormats();
 
 // The format of a file or folder by its name and beginning. Throws InputError if it is none of
@@ -32,9 +33,10 @@ Dataset ReadInput(const std::filesystem::path& path,
                   const ConvertOptions& options);
 
 // Adds what `more` knows to the queries of `dataset` that it knows by id or picture name: cameras
-// and priors where they lack, truths over those they have; and its system. Unknown queries are an
-// InputError that names the first.
-void Merge(const Dataset& more, Dataset& dataset);
+// and priors where they lack, truths over those they have; and its system. Where `more` is results,
+// the dataset's truths are dropped first, so that none of them passes for a result. Unknown queries
+// are an InputError that names the first.
+void Merge(const Dataset& more, bool is_results, Dataset& dataset);
 
 // Writes a dataset in a format, whole or not at all. Returns the number of pictures written. Throws
 // InputError if there is none, and where the file cannot be written.

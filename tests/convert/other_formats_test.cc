@@ -69,7 +69,7 @@ TEST_F(Convert, VisualLocalizationLists) {
   Write("poses.txt", "IMG_20161227_160713.jpg 0.5 0.5 -0.5 0.5 1 2 3\n");
   Dataset dataset = ReadInput(folder_ / "queries.txt", "", {});
   EXPECT_FALSE(dataset.queries[0].truth.has_value());
-  Merge(ReadInput(folder_ / "poses.txt", "", {}), dataset);
+  Merge(ReadInput(folder_ / "poses.txt", "", {}), false, dataset);
   EXPECT_EQ(dataset.queries[0].camera->params[3], -0.0353);
   // R = [[0, -1, 0], [0, 0, -1], [1, 0, 0]] by hand: c = -R^T t.
   const Pose& pose = *dataset.queries[0].truth;
@@ -96,7 +96,7 @@ TEST_F(Convert, BadListsNameFileAndLine) {
   Write("poses.txt", "b.jpg 1 0 0 0 1 2 3\n");
   EXPECT_EQ(Message([&] {
               Dataset dataset = ReadInput(folder_ / "queries.txt", "", {});
-              Merge(ReadInput(folder_ / "poses.txt", "", {}), dataset);
+              Merge(ReadInput(folder_ / "poses.txt", "", {}), false, dataset);
             }),
             "poses.txt: got the picture \"b.jpg\", expected a picture of queries.txt");
 }

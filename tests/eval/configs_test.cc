@@ -20,7 +20,8 @@ TEST(Configs, DefaultIsADumpOfTheDefaults) {
 }
 
 TEST(Configs, ThoseOfTheLocalizerAreReadAndValid) {
-  for (const char* name : {"default.json", "drone.json", "paper.json", "skyline.json"}) {
+  for (const char* name :
+       {"default.json", "drone.json", "egenioussbench.json", "paper.json", "skyline.json"}) {
     LocalizerOptions options;
     OptionsFromJson(ReadFile(kConfigs / name), name, [&](OptionVisitor& v) { options.Visit(v); });
     EXPECT_NO_THROW(options.Validate()) << name;
