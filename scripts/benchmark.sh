@@ -26,8 +26,16 @@ run() {
   echo "== $name"
   "$program" bench "$data/$dataset" --seeds "$runs" --out "$out/$name" "$@"
 }
-run munich munich/dataset.json "$seeds" --perturb 10,10,0,20
-run street ingolstadt/dataset_street.json "$seeds" --perturb 10,10,0,20
+run munich munich/dataset.json "$seeds" --protocol known-tilt
+run street ingolstadt/dataset_street.json "$seeds" --protocol known-tilt
+run munich_phone munich/dataset.json "$seeds" --protocol phone
+run street_phone ingolstadt/dataset_street.json "$seeds" --protocol phone
+run munich_outside munich/dataset.json "$seeds" --protocol outside
+run street_outside ingolstadt/dataset_street.json "$seeds" --protocol outside
+run munich_elsewhere munich/dataset.json "$seeds" --protocol elsewhere \
+  --world "$data/ingolstadt/dataset_street.json"
+run street_elsewhere ingolstadt/dataset_street.json "$seeds" --protocol elsewhere \
+  --world "$data/munich/dataset.json"
 run tilted ingolstadt/dataset_tilted.json "$seeds" --perturb 10,10,0.5,20,5,5
 run drone ingolstadt/dataset_drone.json "$seeds" --config configs/drone.json \
   --perturb 10,10,10,15,5,5

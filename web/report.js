@@ -73,10 +73,10 @@
   if (typeof Plotly === 'undefined') {
     $('noplots').hidden = false;
   } else {
-    if (withTruth > 1 && !isStudy) {
+    if (withTruth > 1 && !isStudy && summary.recall.length > 0) {
       Plots.figure($('plots'), 'Recall',
         'Share of all runs within x metres and x degrees; abstained runs count as misses. ' +
-        'Band: 95 % bootstrap over photos.', Plots.recall(summary.recall));
+        'Band: 95 % interval (Wilson, by the number of photos).', Plots.recall(summary.recall));
     }
     if (summary.runs.filter((r) => r.translation !== null).length > 1 && !isStudy) {
       Plots.figure($('plots'), 'Score against error',

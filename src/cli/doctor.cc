@@ -122,7 +122,7 @@ Check SelfTest(int threads) {
   BenchOptions bench;
   bench.threads = threads;
   const auto runs =
-      RunBench(dataset, localizer, bench, [](const BenchRun&, std::size_t, std::size_t) {});
+      RunBench(BenchQueries(dataset), localizer, bench, [](const BenchRun&, std::size_t, std::size_t) {});
   RemoveTemporaries();
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

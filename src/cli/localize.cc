@@ -224,9 +224,9 @@ void WriteResults(const LocalizeArguments& arguments,
                             "ridgeline localize",
                             VersionText(),
                             CrsName(crs),
-                            options_json};
-  const ReportData data = BenchReport(
-      origin, dataset.queries, localizer, localizer.options().search.space, runs, pictures);
+                            options_json,
+                            {}};
+  const ReportData data = BenchReport(origin, dataset.queries, localizer, runs, pictures);
   if (!arguments.out.empty()) {
     const fs::path out = arguments.out;
     WriteFileAtomically(out / "pose.json", pose_json);
@@ -281,7 +281,7 @@ int RunLocalize(const LocalizeArguments& arguments, const Context& context) {
   bench.seeds = {static_cast<int>(arguments.seed)};
   bench.threads = context.threads;
   bench.pictures = &pictures;
-  const std::vector<BenchRun> runs = RunBench(dataset, localizer, bench, {});
+  const std::vector<BenchRun> runs = RunBench(BenchQueries(dataset), localizer, bench, {});
   const BenchRun& run = runs.front();
   const std::string pose_json =
       PoseJson(query.image.string(), run.localization, world.model, query.assumptions);

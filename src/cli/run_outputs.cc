@@ -70,20 +70,18 @@ void WriteRunOutputs(const RunOutputs& outputs,
                      const RunOrigin& origin,
                      const std::vector<Query>& queries,
                      const Localizer& localizer,
-                     const PoseSpaceOptions& ranges,
                      std::span<const BenchRun> runs,
                      const Context& context) {
   const int epsg = localizer.scene().model().crs.horizontal_epsg;
   PictureReader pictures;
   if (!outputs.report.empty() || !outputs.map.empty()) {
     const std::string crs = epsg == 0 ? "" : "EPSG:" + std::to_string(epsg);
-    const ReportData data =
-        BenchReport({origin.title, origin.command, VersionText(), crs, origin.options_json},
-                    queries,
-                    localizer,
-                    ranges,
-                    runs,
-                    pictures);
+    const ReportData data = BenchReport(
+        {origin.title, origin.command, VersionText(), crs, origin.options_json, origin.protocol},
+        queries,
+        localizer,
+        runs,
+        pictures);
     if (!outputs.map.empty()) {
       WriteMap(data.runs, epsg, outputs.map);
       context.Note("map: " + outputs.map);

@@ -30,16 +30,15 @@ struct RunOrigin {
   std::string title;
   std::string command;
   std::string options_json;
+  Protocol protocol;
 };
 
 // Writes what was asked for and names each file on stderr.
-// @param ranges  Half-ranges of the search box of these runs.
 void WriteRunOutputs(const RunOutputs& outputs,
                      bool many,
                      const RunOrigin& origin,
                      const std::vector<Query>& queries,
                      const Localizer& localizer,
-                     const PoseSpaceOptions& ranges,
                      std::span<const BenchRun> runs,
                      const Context& context);
 

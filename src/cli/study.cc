@@ -30,7 +30,8 @@ struct StudyArguments {
   std::vector<std::string> queries;
   std::vector<std::string> vary;
   std::vector<int> classes = {50, 100, 200};
-  std::string perturb = "10,10,0,20";
+  std::string protocol;
+  std::string perturb;
   std::uint64_t seed = 1;
   bool explore = false;
   ConfigArguments config;
@@ -105,7 +106,9 @@ std::string CommandOf(const StudyArguments& arguments) {
   if (arguments.explore) command += " --explore";
   if (!arguments.config.config.empty()) command += " --config " + arguments.config.config;
   for (const std::string& assignment : arguments.config.set) command += " --set " + assignment;
-  command += " --perturb " + arguments.perturb + " --seed " + std::to_string(arguments.seed);
+  if (!arguments.protocol.empty()) command += " --protocol " + arguments.protocol;
+  if (!arguments.perturb.empty()) command += " --perturb " + arguments.perturb;
+  command += " --seed " + std::to_string(arguments.seed);
   std::string classes;
   for (const int c : arguments.classes) classes += (classes.empty() ? "" : ",") + std::to_string(c);
   return command + " --classes " + classes;
@@ -131,14 +134,24 @@ void CheckOutputs(const StudyArguments& arguments) {
   if (!arguments.report.empty()) TemporaryBeside(arguments.report);
 }
 
+Protocol ProtocolOf(const StudyArguments& arguments) {
+  if (!arguments.perturb.empty()) return PerturbedProtocol(arguments.perturb);
+  if (arguments.protocol.empty()) return FindProtocol("known-tilt");
+  const Protocol& protocol = FindProtocol(arguments.protocol);
+  if (!protocol.HasRecall()) {
+    throw InputError("--protocol",
+                     "",
+                     "\"" + protocol.name + "\"",
+                     "one whose box holds the truth, since a study compares scores with it");
+  }
+  return protocol;
+}
+
 int RunStudyCommand(const StudyArguments& arguments, const Context& context) {
-  Dataset dataset = ReadDataset(arguments.dataset);
-  CompleteFromPictures(dataset, false, PictureInputOptions{});  // priors are drawn
   LocalizerOptions localizer_options;
   ApplyConfig(arguments.config, [&](OptionVisitor& v) { localizer_options.Visit(v); });
   localizer_options.Validate();
   StudyOptions options;
-  options.perturb = ParsePerturbation(arguments.perturb);
   options.seed = arguments.seed;
   options.classes = arguments.classes;
   options.explore = arguments.explore;
@@ -146,17 +159,27 @@ int RunStudyCommand(const StudyArguments& arguments, const Context& context) {
   options.Validate();
   const std::vector<ScoreChoice> scores = ChooseScores(arguments.scores, localizer_options.score);
   const std::vector<Variation> variations = VariationsOf(arguments.vary);
+  const Protocol protocol = ProtocolOf(arguments);
+  Dataset with_cameras = ReadDataset(arguments.dataset);
+  if (protocol.place != PriorPlace::kPicture) {
+    CompleteFromPictures(with_cameras, false, PictureInputOptions{});  // priors are drawn
+  }
+  const BenchQueries source(
+      protocol, std::move(with_cameras), localizer_options.search.space);
+  const Dataset& dataset = source.dataset();
   const std::vector<std::size_t> queries = StudyQueries(dataset, arguments.queries);
   CheckOutputs(arguments);
 
   constexpr double kPlaceMarginM = 50.0;
-  World world = ReadWorld(dataset, kPlaceMarginM);
+  WorldRequest request = RequestFor(dataset, kPlaceMarginM);
+  request.needs_terrain = request.needs_terrain || source.NeedsTerrain();
+  World world = ReadWorld(request);
   for (const std::string& warning : world.warnings) context.Warn(warning);
   const Localizer localizer(world.model, std::move(world.dtm), localizer_options);
   std::vector<ScoreStudy> studies;
   {
     Progress progress(context, "Mapping", queries.size() * scores.size(), "maps");
-    studies = RunStudy(dataset, queries, localizer, scores, options, [&](const StudyProgress& p) {
+    studies = RunStudy(source, queries, localizer, scores, options, [&](const StudyProgress& p) {
       progress.Set(p.done);
     });
   }
@@ -164,7 +187,7 @@ int RunStudyCommand(const StudyArguments& arguments, const Context& context) {
   if (!variations.empty()) {
     std::unique_ptr<Progress> progress;
     varied = RunVariations(
-        dataset, queries, localizer, scores, variations, options, [&](const StudyProgress& p) {
+        source, queries, localizer, scores, variations, options, [&](const StudyProgress& p) {
           if (!progress) progress = std::make_unique<Progress>(context, "Varying", p.total, "maps");
           progress->Set(p.done);
         });
@@ -175,7 +198,9 @@ int RunStudyCommand(const StudyArguments& arguments, const Context& context) {
   const std::vector<LevelSummary> levels = LevelSummariesOf(varied, scores);
   const int epsg = localizer.scene().model().crs.horizontal_epsg;
   if (!arguments.out.empty()) {
-    WriteStudy({names, options, studies, summaries, varied, levels}, epsg, arguments.out);
+    WriteStudy({names, source.protocol(), options, studies, summaries, varied, levels},
+               epsg,
+               arguments.out);
   }
   if (!arguments.report.empty()) {
     WriteHtmlReport(
@@ -183,7 +208,8 @@ int RunStudyCommand(const StudyArguments& arguments, const Context& context) {
                      CommandOf(arguments),
                      VersionText(),
                      epsg == 0 ? "" : "EPSG:" + std::to_string(epsg),
-                     OptionsToJson([&](OptionVisitor& v) { localizer_options.Visit(v); })},
+                     OptionsToJson([&](OptionVisitor& v) { localizer_options.Visit(v); }),
+                     source.protocol()},
                     names,
                     localizer,
                     options,
@@ -194,9 +220,10 @@ int RunStudyCommand(const StudyArguments& arguments, const Context& context) {
     context.Note("report: " + arguments.report);
   }
   if (context.json) {
-    context.Print(StudySummaryJson(dataset.name, summaries));
+    context.Print(StudySummaryJson(dataset.name, source.protocol(), summaries));
     return kExitOk;
   }
+  context.Print("protocol " + source.protocol().name + ": " + source.protocol().words);
   context.Print(TableOf(summaries));
   if (!levels.empty()) context.Print(SensitivityTextOf(names, levels));
   if (!arguments.out.empty()) context.Print("written to " + arguments.out);
@@ -237,11 +264,18 @@ void AddStudyCommand(CLI::App& app, Context& context) {
   command->add_option("--report", arguments->report, "HTML report that opens offline")
       ->type_name("FILE");
   command
+      ->add_option(
+          "--protocol",
+          arguments->protocol,
+          "What the prior knows, and box of the map: paper, known-tilt (default), phone or "
+          "photo")
+      ->type_name("NAME");
+  command
       ->add_option("--perturb",
                    arguments->perturb,
-                   "Prior around the truth, and box of the map: east,north,height,heading"
-                   "[,pitch,roll] half-ranges in m and deg")
-      ->capture_default_str();
+                   "The same in numbers: east,north,height,heading[,pitch,roll] half-ranges in m "
+                   "and deg")
+      ->excludes("--protocol");
   command->add_option("--seed", arguments->seed, "Seed of priors, searches and variations")
       ->capture_default_str();
   command

@@ -30,7 +30,7 @@ void WriteGeoTiff(const EnergyMap& map, int epsg, const fs::path& path) {
 
 void WriteStudy(const StudyResults& results, int epsg, const fs::path& folder) {
   const StudyNames& names = results.names;
-  WriteFileAtomically(folder / "summary.csv", SummaryCsv(results.summaries));
+  WriteFileAtomically(folder / "summary.csv", SummaryCsv(results.protocol, results.summaries));
   WriteFileAtomically(folder / "figures.csv", FiguresCsv(names, results.studies));
   WriteFileAtomically(folder / "headings.csv", HeadingsCsv(names, results.studies));
   WriteFileAtomically(folder / "profiles.csv", ProfilesCsv(names, results.studies));

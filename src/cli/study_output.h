@@ -12,6 +12,7 @@ namespace ridgeline {
 // All results of a study.
 struct StudyResults {
   const StudyNames& names;
+  const Protocol& protocol;
   const StudyOptions& options;
   std::span<const ScoreStudy> studies;
   std::span<const StudySummary> summaries;

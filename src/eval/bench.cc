@@ -76,39 +76,26 @@ RunRecord RecordOf(const Query& query, int seed, const Localization& localizatio
   return record;
 }
 
-std::vector<BenchRun> RunBench(const Dataset& dataset,
+std::vector<BenchRun> RunBench(const BenchQueries& queries,
                                const Localizer& localizer,
                                const BenchOptions& options,
                                const BenchProgress& progress) {
-  std::vector<std::size_t> usable;
-  for (std::size_t q = 0; q < dataset.queries.size(); ++q) {
-    const Query& query = dataset.queries[q];
-    if (options.perturb ? query.truth.has_value() : query.prior.has_value()) usable.push_back(q);
-  }
-  if (usable.empty()) {
-    throw InputError(dataset.file.string(),
-                     "queries",
-                     options.perturb ? "no query with a truth" : "no query with a prior",
-                     options.perturb ? "a truth to draw priors around" : "priors, or --perturb");
-  }
   PictureReader own_pictures;
   PictureReader& pictures = options.pictures != nullptr ? *options.pictures : own_pictures;
   std::vector<BenchRun> runs;
-  const std::size_t total = usable.size() * options.seeds.size();
-  for (const std::size_t q : usable) {
-    const Query& query = dataset.queries[q];
+  const std::size_t total = queries.usable().size() * options.seeds.size();
+  for (const std::size_t q : queries.usable()) {
+    const Query& query = queries.dataset().queries[q];
     for (const int seed : options.seeds) {
       const auto start = std::chrono::steady_clock::now();
       LocalizationInput input = InputOf(query, localizer.options(), pictures);
-      PoseSpaceOptions ranges = localizer.options().search.space;
-      if (options.perturb) {
-        input.prior = DrawPrior(*query.truth, *options.perturb, seed, query.id);
-        ranges = RangesOf(ranges, *options.perturb);
-      }
+      const SearchStart from = queries.Start(q, seed, localizer);
+      input.prior = from.prior;
       BenchRun run;
       run.query = q;
-      run.prior = input.prior;
-      run.localization = localizer.Localize(input, ranges, seed, options.threads);
+      run.prior = from.prior;
+      run.ranges = from.ranges;
+      run.localization = localizer.Localize(input, from.ranges, seed, options.threads);
       const double seconds =
           std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       run.record = RecordOf(query, seed, run.localization, seconds);

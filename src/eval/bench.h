@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "eval/bench_queries.h"
 #include "eval/metrics.h"
 #include "eval/perturb.h"
 #include "input/dataset.h"
@@ -17,9 +18,7 @@
 namespace ridgeline {
 
 struct BenchOptions {
-  // Made priors; absent: the dataset's own. Its ranges are those of the search then.
-  std::optional<Perturbation> perturb;
-  std::vector<int> seeds = {1};
+  std::vector<int> seeds = {1};  // of the priors and of the samplers
   int threads = 0;
   // For others who read the same pictures; null: they are read for the runs alone.
   PictureReader* pictures = nullptr;
@@ -30,16 +29,17 @@ struct BenchRun {
   RunRecord record;
   std::size_t query = 0;  // index into Dataset::queries
   PosePrior prior;
+  PoseSpaceOptions ranges;  // half-ranges of the search box around the prior
   Localization localization;
 };
 
 // Called after each run, in order, on the caller's thread.
 using BenchProgress = std::function<void(const BenchRun&, std::size_t done, std::size_t total)>;
 
-// Localizes every query with every seed. Without --perturb queries without truth are localized too;
-// with it they are left out, since their priors are made from the truth. One run at a time, each on
-// all threads, so that the seconds are those of a user. Throws InputError if no query can be run.
-std::vector<BenchRun> RunBench(const Dataset& dataset,
+// Localizes every usable query with every seed. Of the truth a search sees nothing: its input is
+// the picture, the camera, and what BenchQueries::Start gives. One run at a time, each on all
+// threads, so that the seconds are those of a user.
+std::vector<BenchRun> RunBench(const BenchQueries& queries,
                                const Localizer& localizer,
                                const BenchOptions& options,
                                const BenchProgress& progress);

@@ -12,6 +12,7 @@
 #include "base/decimals.h"
 #include "base/error.h"
 #include "eval/csv_text.h"
+#include "eval/egeniouss_metrics.h"
 
 namespace ridgeline {
 namespace {
@@ -24,7 +25,25 @@ Json JsonOf(const Spread& spread) {
           {"mad", RoundedTo(spread.mad, 6)}};
 }
 
-Json JsonOf(const Summary& summary) {
+Json JsonOf(const EgenioussSpread& spread) {
+  return {{"median", spread.median}, {"mean", spread.mean}, {"rmse", spread.rmse}};
+}
+
+Json JsonOf(const EgenioussMetrics& metrics) {
+  Json json = {{"poses", metrics.poses}, {"missing", metrics.missing}};
+  for (std::size_t b = 0; b < kEgenioussBins.size(); ++b) {
+    json["share_strictly_below"][kEgenioussBins[b].name] = metrics.share[b];
+  }
+  json["translation_m"] = JsonOf(metrics.translation_m);
+  json["rotation_deg"] = JsonOf(metrics.rotation_deg);
+  return json;
+}
+
+Json JsonOf(const RunShare& share) {
+  return {{"share", share.share}, {"ci95", {share.ci95.lower, share.ci95.upper}}};
+}
+
+Json JsonOf(const Summary& summary, const Protocol& protocol) {
   Json json;
   json["queries"] = summary.queries;
   json["runs"] = summary.all_runs;
@@ -32,7 +51,8 @@ Json JsonOf(const Summary& summary) {
   // Without a truth nothing is known of errors: null, not 0.
   const bool has_truth = summary.runs > 0;
   for (const char* key : {"recall", "recall_ci95", "recall_answered"}) json[key] = nullptr;
-  for (std::size_t t = 0; has_truth && t < kRecallThresholds.size(); ++t) {
+  const bool has_recall = has_truth && protocol.HasRecall();
+  for (std::size_t t = 0; has_recall && t < kRecallThresholds.size(); ++t) {
     const char* name = kRecallThresholds[t].name;
     json["recall"][name] = summary.recall[t];
     json["recall_ci95"][name] = {summary.recall_ci95[t].lower, summary.recall_ci95[t].upper};
@@ -40,10 +60,16 @@ Json JsonOf(const Summary& summary) {
   }
   json["translation_error_m"] = has_truth ? JsonOf(summary.translation_m) : Json();
   json["rotation_error_deg"] = has_truth ? JsonOf(summary.rotation_deg) : Json();
-  json["abstained"] = summary.abstained;
-  json["confidence_0.9"] = {
-      {"share", summary.confident},
-      {"recall_2m_2deg", has_truth ? Json(summary.confident_recall_2m_2deg) : Json()}};
+  json["abstained"] = summary.abstained.share;
+  json["abstained_ci95"] = JsonOf(summary.abstained)["ci95"];
+  json["doubtful"] = JsonOf(summary.doubtful);
+  json["confidence_0.9"] = JsonOf(summary.confident);
+  json["confidence_0.9"]["recall_2m_2deg"] =
+      has_truth ? Json(summary.confident_recall_2m_2deg) : Json();
+  json["confidence_0.9"]["wrong"] =
+      has_truth ? JsonOf(summary.confident_wrong)
+                : (protocol.HasRecall() ? Json() : JsonOf(summary.confident));
+  if (has_truth && !has_recall) json["found_by_widening_2m_2deg"] = summary.recall[2];
   json["coverage_95"] = nullptr;
   if (has_truth) {
     json["coverage_95"] = {{"position_ellipse", summary.ellipse_coverage},
@@ -70,7 +96,8 @@ std::vector<std::string> Fields(const std::string& line) {
 
 std::string ResultsCsv(std::span<const RunRecord> runs) {
   std::ostringstream csv;
-  csv << "query,seed,status,energy,confidence,e,n,h,qw,qx,qy,qz,t_err_m,t_err_horizontal_m,r_err_deg,"
+  csv << "query,seed,status,energy,confidence,e,n,h,qw,qx,qy,qz,t_err_m,t_err_horizontal_m,r_err_"
+         "deg,"
          "evaluations,seconds\n";
   for (const RunRecord& run : runs) {
     csv << CsvField(run.query) << ',' << run.seed << ',' << run.status << ','
@@ -85,8 +112,8 @@ std::string ResultsCsv(std::span<const RunRecord> runs) {
       csv << ",,,,,,,";
     }
     if (run.error) {
-      csv << CsvNumber(run.error->translation_m, 4) << ',' << CsvNumber(run.error->horizontal_m, 4) << ','
-          << CsvNumber(run.error->rotation_deg, 5) << ',';
+      csv << CsvNumber(run.error->translation_m, 4) << ',' << CsvNumber(run.error->horizontal_m, 4)
+          << ',' << CsvNumber(run.error->rotation_deg, 5) << ',';
     } else {
       csv << ",,,";
     }
@@ -97,14 +124,20 @@ std::string ResultsCsv(std::span<const RunRecord> runs) {
 
 std::string SummaryJson(const std::string& dataset,
                         const std::string& config,
+                        const Protocol& protocol,
                         std::span<const RunRecord> runs) {
-  Json json = {{"dataset", dataset}, {"config", config}};
-  json.update(JsonOf(Summarize(runs)));
+  Json json = {{"dataset", dataset},
+               {"config", config},
+               {"protocol", protocol.name},
+               {"protocol_means", protocol.words}};
+  json.update(JsonOf(Summarize(runs), protocol));
+  const EgenioussMetrics egeniouss = EgenioussMetricsOf(runs);
+  json["egenioussbench"] = protocol.HasRecall() && egeniouss.poses > 0 ? JsonOf(egeniouss) : Json();
   std::map<std::string, std::vector<RunRecord>> sets;
   for (const RunRecord& run : runs) sets[run.set].push_back(run);
   if (sets.size() > 1) {
     for (const auto& [name, of_set] : sets) {
-      json["sets"][name.empty() ? "(none)" : name] = JsonOf(Summarize(of_set));
+      json["sets"][name.empty() ? "(none)" : name] = JsonOf(Summarize(of_set), protocol);
     }
   }
   return json.dump(1) + "\n";
@@ -121,9 +154,9 @@ std::string PosesText(std::span<const RunRecord> runs, const Eigen::Vector3d& or
     const Pose relative{run.pose->cam_from_world, run.pose->center_in_world - origin};
     const Eigen::Quaterniond& q = relative.cam_from_world;
     const Eigen::Vector3d t = relative.ColmapTranslation();
-    text << run.query << ' ' << run.seed << ' ' << CsvNumber(q.w(), 9) << ' ' << CsvNumber(q.x(), 9) << ' '
-         << CsvNumber(q.y(), 9) << ' ' << CsvNumber(q.z(), 9) << ' ' << CsvNumber(t.x(), 5) << ' '
-         << CsvNumber(t.y(), 5) << ' ' << CsvNumber(t.z(), 5) << '\n';
+    text << run.query << ' ' << run.seed << ' ' << CsvNumber(q.w(), 9) << ' ' << CsvNumber(q.x(), 9)
+         << ' ' << CsvNumber(q.y(), 9) << ' ' << CsvNumber(q.z(), 9) << ' ' << CsvNumber(t.x(), 5)
+         << ' ' << CsvNumber(t.y(), 5) << ' ' << CsvNumber(t.z(), 5) << '\n';
   }
   return text.str();
 }
@@ -138,8 +171,8 @@ std::map<std::string, Pose> ReadPosesCsv(const std::filesystem::path& path) {
   for (const std::string& name : wanted) {
     const auto it = std::find(header.begin(), header.end(), name);
     if (it == header.end()) {
-      throw InputError(path.string(), "line 1", "no column \"" + name + "\"",
-                       "query,e,n,h,qw,qx,qy,qz");
+      throw InputError(
+          path.string(), "line 1", "no column \"" + name + "\"", "query,e,n,h,qw,qx,qy,qz");
     }
     columns.push_back(static_cast<std::size_t>(it - header.begin()));
   }
@@ -155,7 +188,9 @@ std::map<std::string, Pose> ReadPosesCsv(const std::filesystem::path& path) {
         if (!(text >> value)) value = NAN;
       }
       if (!std::isfinite(value)) {
-        throw InputError(path.string(), "line " + std::to_string(number), "\"" + line + "\"",
+        throw InputError(path.string(),
+                         "line " + std::to_string(number),
+                         "\"" + line + "\"",
                          "a number for " + wanted[i]);
       }
       values.push_back(value);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "eval/metrics.h"
+#include "eval/protocol.h"
 
 namespace ridgeline {
 
@@ -16,9 +17,11 @@ namespace ridgeline {
 // One row per run.
 std::string ResultsCsv(std::span<const RunRecord> runs);
 
-// Summary over all runs, and by set where there are several.
+// Summary over all runs, and by set where there are several. Recalls are null without truth and
+// where the protocol leaves no right answer in the box.
 std::string SummaryJson(const std::string& dataset,
                         const std::string& config,
+                        const Protocol& protocol,
                         std::span<const RunRecord> runs);
 
 // COLMAP's images.txt lines of the answered runs, relative to `origin` (rounded world coordinates).

@@ -3,11 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
-
-#include "base/random.h"
-
+#include <set>
 namespace ridgeline {
 namespace {
 
@@ -39,32 +36,12 @@ double Share(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-// Runs of one query and how many of them are within a threshold.
-struct QueryHits {
-  int hits = 0;
-  int runs = 0;
-};
-
-Interval95 Bootstrap(const std::vector<QueryHits>& queries) {
-  constexpr int kResamples = 1000;
-  constexpr std::uint64_t kSeed = 95;
-  if (queries.empty()) return {};
-  std::vector<double> recalls(kResamples);
-  for (int r = 0; r < kResamples; ++r) {
-    Random random(kSeed, 0, r);
-    std::size_t hits = 0;
-    std::size_t runs = 0;
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      const QueryHits& query = queries[random.Below(queries.size())];
-      hits += query.hits;
-      runs += query.runs;
-    }
-    recalls[r] = Share(hits, runs);
-  }
-  return {Quantile(recalls, 0.025), Quantile(recalls, 0.975)};
+RunShare ShareOfRuns(std::size_t part, std::size_t whole) {
+  const int runs = static_cast<int>(part);
+  return {runs, Share(part, whole), ExactInterval(runs, static_cast<int>(whole))};
 }
 
-double CoverageOf(std::span<const RunRecord> runs, std::optional<bool> RunRecord::* holds) {
+double CoverageOf(std::span<const RunRecord> runs, std::optional<bool> RunRecord::*holds) {
   std::size_t held = 0;
   std::size_t answered = 0;
   for (const RunRecord& run : runs) {
@@ -88,24 +65,29 @@ Summary Summarize(std::span<const RunRecord> runs) {
   Summary summary;
   summary.all_runs = static_cast<int>(runs.size());
   std::vector<const RunRecord*> scored;
-  std::map<std::string, std::vector<const RunRecord*>> by_query;
+  std::set<std::string> queries;
+  std::set<std::string> scored_queries;
   std::vector<double> seconds;
   std::size_t abstained = 0;
+  std::size_t doubtful = 0;
   std::size_t sure = 0;
   double evaluations = 0.0;
   for (const RunRecord& run : runs) {
     seconds.push_back(run.seconds);
     evaluations += static_cast<double>(run.evaluations);
     if (!run.pose) ++abstained;
+    if (run.status == "doubtful") ++doubtful;
     if (run.pose && run.confidence >= 0.9) ++sure;
-    by_query[run.query];
+    queries.insert(run.query);
     if (!run.has_truth) continue;
     scored.push_back(&run);
-    by_query[run.query].push_back(&run);
+    scored_queries.insert(run.query);
   }
-  summary.queries = static_cast<int>(by_query.size());
+  summary.queries = static_cast<int>(queries.size());
   summary.runs = static_cast<int>(scored.size());
-  summary.abstained = Share(abstained, runs.size());
+  summary.abstained = ShareOfRuns(abstained, runs.size());
+  summary.doubtful = ShareOfRuns(doubtful, runs.size());
+  summary.confident = ShareOfRuns(sure, runs.size());
   summary.seconds_median = Quantile(seconds, 0.5);
   summary.seconds_p95 = Quantile(seconds, 0.95);
   const double total = std::accumulate(seconds.begin(), seconds.end(), 0.0);
@@ -114,18 +96,13 @@ Summary Summarize(std::span<const RunRecord> runs) {
   const std::size_t answered = std::count_if(
       scored.begin(), scored.end(), [](const RunRecord* run) { return run->error.has_value(); });
   for (std::size_t t = 0; t < kRecallThresholds.size(); ++t) {
-    std::vector<QueryHits> hits;
-    std::size_t total_hits = 0;
-    for (const auto& [id, of_query] : by_query) {
-      if (of_query.empty()) continue;
-      QueryHits query{0, static_cast<int>(of_query.size())};
-      for (const RunRecord* run : of_query) query.hits += Within(*run, kRecallThresholds[t]);
-      total_hits += query.hits;
-      hits.push_back(query);
-    }
-    summary.recall[t] = Share(total_hits, scored.size());
-    summary.recall_answered[t] = Share(total_hits, answered);
-    summary.recall_ci95[t] = Bootstrap(hits);
+    const std::size_t hits = std::count_if(scored.begin(), scored.end(), [&](const RunRecord* run) {
+      return Within(*run, kRecallThresholds[t]);
+    });
+    summary.recall[t] = Share(hits, scored.size());
+    summary.recall_answered[t] = Share(hits, answered);
+    summary.recall_ci95[t] =
+        WilsonInterval(summary.recall[t], static_cast<int>(scored_queries.size()));
   }
 
   std::vector<double> translations;
@@ -142,7 +119,7 @@ Summary Summarize(std::span<const RunRecord> runs) {
   }
   summary.translation_m = SpreadOf(translations);
   summary.rotation_deg = SpreadOf(rotations);
-  summary.confident = Share(sure, runs.size());
+  summary.confident_wrong = ShareOfRuns(confident - confident_right, scored.size());
   summary.confident_recall_2m_2deg = Share(confident_right, confident);
   summary.ellipse_coverage = CoverageOf(runs, &RunRecord::ellipse_holds_truth);
   summary.interval_coverage = CoverageOf(runs, &RunRecord::interval_holds_truth);

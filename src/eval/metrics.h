@@ -9,14 +9,15 @@
 #include <vector>
 
 #include "camera/pose.h"
+#include "eval/binomial.h"
 
 namespace ridgeline {
 
 // Error of a pose against the truth.
 struct PoseError {
-  double translation_m = 0.0;             // between the projection centres
-  double horizontal_m = 0.0;              // its horizontal part
-  double rotation_deg = 0.0;              // angle of the relative rotation
+  double translation_m = 0.0;  // between the projection centres
+  double horizontal_m = 0.0;   // its horizontal part
+  double rotation_deg = 0.0;   // angle of the relative rotation
 };
 
 PoseError ErrorOf(const Pose& pose, const Pose& truth);
@@ -26,8 +27,8 @@ struct RunRecord {
   std::string query;
   std::string set;
   int seed = 0;
-  std::string status;        // "ok" or "abstained"
-  std::string reason;        // of an abstention
+  std::string status;  // "ok", "doubtful" or "abstained"
+  std::string reason;  // of an abstention
   double energy = 1.0;
   double confidence = 0.0;
   std::optional<Pose> pose;  // world frame; absent: abstained
@@ -60,23 +61,27 @@ struct Spread {
   double mad = 0.0;  // mean absolute deviation from the mean, as in Loeper et al.
 };
 
-struct Interval95 {
-  double lower = 0.0;
-  double upper = 0.0;
+// Share of runs with its exact interval: each run counts, since each searches another box.
+struct RunShare {
+  int runs = 0;
+  double share = 0.0;
+  Interval95 ci95;
 };
 
 // Figures over all runs that have a truth. Abstained runs count as not localized.
 struct Summary {
   int queries = 0;
-  int runs = 0;       // with truth
-  int all_runs = 0;   // with or without truth
+  int runs = 0;      // with truth
+  int all_runs = 0;  // with or without truth
   std::array<double, kRecallThresholds.size()> recall{};
   std::array<Interval95, kRecallThresholds.size()> recall_ci95{};
   std::array<double, kRecallThresholds.size()> recall_answered{};
   Spread translation_m;  // of the answered
   Spread rotation_deg;
-  double abstained = 0.0;  // share of all runs
-  double confident = 0.0;  // share of all runs with confidence >= 0.9
+  RunShare abstained;        // of all runs
+  RunShare doubtful;         // of all runs: answered, with the doubt named
+  RunShare confident;        // of all runs: answered with confidence >= 0.9
+  RunShare confident_wrong;  // of the runs with truth: confident and not within 2 m, 2 degrees
   double confident_recall_2m_2deg = 0.0;
   double ellipse_coverage = 0.0;  // share of answered runs
   double interval_coverage = 0.0;
@@ -85,8 +90,8 @@ struct Summary {
   double evaluations_per_second = 0.0;
 };
 
-// The bootstrap (1 000 resamples of whole queries, since the seeds of one query are not independent)
-// is seeded by a constant.
+// Intervals of recalls are Wilson's with the number of queries, since the seeds of one query are
+// not independent.
 Summary Summarize(std::span<const RunRecord> runs);
 
 }  // namespace ridgeline

@@ -45,7 +45,7 @@ Pose LocalOf(Pose pose, const Localizer& localizer) {
 // origin.
 Pose PriorPoseOf(const BenchRun& run, const Localizer& localizer) {
   const Vector3d& origin = localizer.scene().model().origin_in_world;
-  const double camera_height_m = localizer.options().search.space.camera_height_m;
+  const double camera_height_m = run.ranges.camera_height_m;
   const auto pose = PoseOfPrior(run.prior, localizer.dtm(), origin, camera_height_m);
   if (pose) return *pose;
   PosePrior at_origin = run.prior;
@@ -130,10 +130,7 @@ std::vector<std::pair<std::string, std::string>> FactsOf(const BenchRun& run) {
   return facts;
 }
 
-ReportRun RunOf(const BenchRun& run,
-                const Query& query,
-                const Localizer& localizer,
-                const PoseSpaceOptions& ranges) {
+ReportRun RunOf(const BenchRun& run, const Query& query, const Localizer& localizer) {
   const Localization& localization = run.localization;
   ReportRun report;
   report.id = run.record.query;
@@ -156,7 +153,7 @@ ReportRun RunOf(const BenchRun& run,
   }
   if (localization.pose) report.position_covariance = localization.spread.position_covariance;
   if (!localization.map.energies.empty()) report.map = MapOf(localization.map);
-  AddGround(localizer, ranges, report);
+  AddGround(localizer, run.ranges, report);
   const PinholeCamera camera = query.camera->Pinhole();
   report.hfov_deg = HorizontalFieldDeg(camera);
   const Overlay overlay = ResultOverlay(localizer, camera, run);
@@ -179,7 +176,12 @@ std::string Grouped(double value) {
   return text;
 }
 
-void AddSummary(std::span<const BenchRun> runs, ReportData& data) {
+std::string ShareText(const RunShare& share) {
+  return Percent(share.share) + " (" + Text("%.1f", 100.0 * share.ci95.lower) + " to " +
+         Text("%.1f %%)", 100.0 * share.ci95.upper);
+}
+
+void AddSummary(std::span<const BenchRun> runs, const Protocol& protocol, ReportData& data) {
   if (runs.size() == 1) {
     const RunRecord& record = runs.front().record;
     if (record.error) {
@@ -197,17 +199,24 @@ void AddSummary(std::span<const BenchRun> runs, ReportData& data) {
   const Summary summary = Summarize(records);
   data.facts = {{"photos", std::to_string(summary.queries)},
                 {"runs", std::to_string(summary.all_runs)}};
-  if (summary.runs > 0) {
+  if (!protocol.name.empty()) data.facts.emplace_back("protocol", protocol.name);
+  if (summary.runs > 0 && protocol.HasRecall()) {
     data.facts.emplace_back("within 2 m, 2°", Percent(summary.recall[2]));
     data.facts.emplace_back("within 5 m, 5°", Percent(summary.recall[4]));
     data.facts.emplace_back("median error", ErrorText(summary.translation_m, summary.rotation_deg));
   }
-  data.facts.emplace_back("abstained", Percent(summary.abstained));
+  if (!protocol.HasRecall()) {
+    data.facts.emplace_back("confident, 95 % interval", ShareText(summary.confident));
+    data.facts.emplace_back("doubtful", Percent(summary.doubtful.share));
+  }
+  data.facts.emplace_back("abstained", Percent(summary.abstained.share));
   data.facts.emplace_back("time per photo", Text("%.2f s", summary.seconds_median));
   data.facts.emplace_back("poses per second", Grouped(summary.evaluations_per_second));
-  if (summary.runs < 2) return;
+  if (summary.runs < 2 || !protocol.HasRecall()) return;
 
-  ReportTable table{"Recall", {"within", "of all runs", "95 % interval", "of the answered"}, {}};
+  const std::string name = protocol.name.empty() ? "" : ", protocol " + protocol.name;
+  ReportTable table{
+      "Recall" + name, {"within", "of all runs", "95 % interval", "of the answered"}, {}};
   for (std::size_t i = 0; i < kRecallThresholds.size(); ++i) {
     const RecallThreshold& threshold = kRecallThresholds[i];
     table.rows.push_back(
@@ -256,7 +265,6 @@ Overlay ResultOverlay(const Localizer& localizer,
 ReportData BenchReport(const ReportOrigin& origin,
                        const std::vector<Query>& queries,
                        const Localizer& localizer,
-                       const PoseSpaceOptions& ranges,
                        std::span<const BenchRun> runs,
                        PictureReader& pictures) {
   ReportData data;
@@ -266,14 +274,15 @@ ReportData BenchReport(const ReportOrigin& origin,
   data.crs = origin.crs;
   data.options_json = origin.options_json;
   data.warnings = localizer.scene().model().warnings;
-  AddSummary(runs, data);
+  data.has_recall = origin.protocol.HasRecall();
+  AddSummary(runs, origin.protocol, data);
   std::map<std::size_t, int> photo_of_query;
   for (const BenchRun& run : runs) {
     const Query& query = queries[run.query];
     const auto [it, added] =
         photo_of_query.emplace(run.query, static_cast<int>(data.photos.size()));
     if (added) data.photos.push_back(PhotoOf(query, pictures));
-    data.runs.push_back(RunOf(run, query, localizer, ranges));
+    data.runs.push_back(RunOf(run, query, localizer));
     data.runs.back().photo = it->second;
   }
   AddAssumptions(queries, data);

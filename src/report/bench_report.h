@@ -19,15 +19,14 @@ struct ReportOrigin {
   std::string version;
   std::string crs;
   std::string options_json;
+  Protocol protocol;  // without a name: none, as of a single photo
 };
 
 // The report of localized queries: of one (`ridgeline localize`) or many (`ridgeline bench`).
-// @param ranges  Half-ranges of the search box of these runs.
 // The photos are kept small; what was assumed of each query is a table.
 ReportData BenchReport(const ReportOrigin& origin,
                        const std::vector<Query>& queries,
                        const Localizer& localizer,
-                       const PoseSpaceOptions& ranges,
                        std::span<const BenchRun> runs,
                        PictureReader& pictures);
 

@@ -3,16 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <set>
 #include <string>
 
-#include "base/random.h"
+#include "eval/binomial.h"
 
 namespace ridgeline {
 namespace {
-
-constexpr int kResamples = 500;
-constexpr std::uint64_t kSeed = 95;
 
 bool HasTruth(const ReportRun& run) { return run.outcome != ReportOutcome::kUnknown; }
 
@@ -21,64 +18,28 @@ bool Within(const ReportRun& run, double limit) {
          *run.translation_m <= limit && *run.rotation_deg <= limit;
 }
 
-// Runs of each query that has a truth.
-std::vector<std::vector<const ReportRun*>> ByQuery(std::span<const ReportRun> runs) {
-  std::map<std::string, std::vector<const ReportRun*>> groups;
-  for (const ReportRun& run : runs) {
-    if (HasTruth(run)) groups[run.id].push_back(&run);
-  }
-  std::vector<std::vector<const ReportRun*>> queries;
-  for (auto& [id, group] : groups) queries.push_back(std::move(group));
-  return queries;
-}
-
 }  // namespace
 
 std::vector<Share95> RecallCurve(std::span<const ReportRun> runs) {
-  const auto queries = ByQuery(runs);
   std::vector<Share95> curve;
-  if (queries.empty()) return curve;
+  std::set<std::string> queries;
+  int all = 0;
+  for (const ReportRun& run : runs) {
+    if (!HasTruth(run)) continue;
+    queries.insert(run.id);
+    ++all;
+  }
+  if (all == 0) return curve;
   for (int step = 1; step <= 40; ++step) {
     const double limit = 0.25 * step;
-    std::vector<int> hits;
-    int all = 0;
-    int right = 0;
-    for (const auto& query : queries) {
-      hits.push_back(static_cast<int>(std::count_if(
-          query.begin(), query.end(), [&](auto* run) { return Within(*run, limit); })));
-      all += static_cast<int>(query.size());
-      right += hits.back();
-    }
-    std::vector<double> shares(kResamples);
-    for (int r = 0; r < kResamples; ++r) {
-      Random random(kSeed, 0, static_cast<std::uint64_t>(r));
-      double drawn = 0.0;
-      double drawn_hits = 0.0;
-      for (std::size_t i = 0; i < queries.size(); ++i) {
-        const auto k = random.Below(queries.size());
-        drawn += static_cast<double>(queries[k].size());
-        drawn_hits += hits[k];
-      }
-      shares[r] = drawn_hits / drawn;
-    }
-    std::sort(shares.begin(), shares.end());
-    curve.push_back({limit,
-                     static_cast<double>(right) / all,
-                     shares[static_cast<std::size_t>(0.025 * kResamples)],
-                     shares[static_cast<std::size_t>(0.975 * kResamples) - 1],
-                     all});
+    const auto right = std::count_if(runs.begin(), runs.end(), [&](const ReportRun& run) {
+      return HasTruth(run) && Within(run, limit);
+    });
+    const double share = static_cast<double>(right) / all;
+    const Interval95 interval = WilsonInterval(share, static_cast<int>(queries.size()));
+    curve.push_back({limit, share, interval.lower, interval.upper, all});
   }
   return curve;
-}
-
-Share95 WilsonShare(double x, int hits, int count) {
-  constexpr double kZ = 1.959964;
-  const double n = count;
-  const double p = hits / n;
-  const double middle = (p + kZ * kZ / (2.0 * n)) / (1.0 + kZ * kZ / n);
-  const double half =
-      kZ / (1.0 + kZ * kZ / n) * std::sqrt(p * (1.0 - p) / n + kZ * kZ / (4.0 * n * n));
-  return {x, p, std::max(0.0, middle - half), std::min(1.0, middle + half), count};
 }
 
 std::vector<Share95> Reliability(std::span<const ReportRun> runs, int bins) {
@@ -96,7 +57,9 @@ std::vector<Share95> Reliability(std::span<const ReportRun> runs, int bins) {
   std::vector<Share95> shares;
   for (int bin = 0; bin < bins; ++bin) {
     if (count[bin] == 0) continue;
-    shares.push_back(WilsonShare(sum[bin] / count[bin], right[bin], count[bin]));
+    const double share = static_cast<double>(right[bin]) / count[bin];
+    const Interval95 interval = WilsonInterval(share, count[bin]);
+    shares.push_back({sum[bin] / count[bin], share, interval.lower, interval.upper, count[bin]});
   }
   return shares;
 }

@@ -17,15 +17,12 @@ struct Share95 {
   int count = 0;
 };
 
-// Share of the runs with truth within (x m, x degrees), for x from 0.25 to 10. Intervals by
-// bootstrap over whole queries (500 resamples, fixed seed). Empty without truth.
+// Share of the runs with truth within (x m, x degrees), for x from 0.25 to 10. Wilson intervals
+// with the number of queries. Empty without truth.
 std::vector<Share95> RecallCurve(std::span<const ReportRun> runs);
 
 // Share of right poses among the answered runs with truth, in bins of reported confidence; x is the
 // mean confidence of the bin. Wilson intervals. Empty bins are left out.
 std::vector<Share95> Reliability(std::span<const ReportRun> runs, int bins);
-
-// Wilson's interval for `hits` of `count` at 95 %; count > 0.
-Share95 WilsonShare(double x, int hits, int count);
 
 }  // namespace ridgeline

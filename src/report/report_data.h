@@ -112,9 +112,10 @@ struct ReportData {
   std::string title;    // e.g. "Bench of munich-arcisstrasse"
   std::string command;  // how to make it again
   std::string version;
-  std::string crs;                                         // of all positions; may be empty
+  std::string crs;  // of all positions; may be empty
   // What the runs of outcome kRight are: "17 of 24 ...".
   std::string right_text = "within 2 m and 2°";
+  bool has_recall = true;  // false: no right answer was in the search box, so none is counted
   std::vector<std::pair<std::string, std::string>> facts;  // big figures: name, value
   std::vector<ReportPhoto> photos;
   std::vector<ReportRun> runs;

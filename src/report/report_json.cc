@@ -102,13 +102,12 @@ Json MapJson(const ReportEnergyMap& map, const Vector2d& origin) {
 }
 
 Json HillshadeJson(const ReportHillshade& hillshade, const Vector2d& origin) {
-  return {{"url", JpegDataUrl(hillshade.shade, 512, 85)},
-          {"lower",
-           {Number(hillshade.lower.x() - origin.x(), 2),
-            Number(hillshade.lower.y() - origin.y(), 2)}},
-          {"upper",
-           {Number(hillshade.upper.x() - origin.x(), 2),
-            Number(hillshade.upper.y() - origin.y(), 2)}}};
+  return {
+      {"url", JpegDataUrl(hillshade.shade, 512, 85)},
+      {"lower",
+       {Number(hillshade.lower.x() - origin.x(), 2), Number(hillshade.lower.y() - origin.y(), 2)}},
+      {"upper",
+       {Number(hillshade.upper.x() - origin.x(), 2), Number(hillshade.upper.y() - origin.y(), 2)}}};
 }
 
 Json RunRow(const ReportRun& run) {
@@ -130,11 +129,8 @@ Json RunRow(const ReportRun& run) {
 Json CurveJson(const std::vector<Share95>& curve) {
   Json list = Json::array();
   for (const Share95& s : curve) {
-    list.push_back({Number(s.x, 4),
-                    Number(s.share, 5),
-                    Number(s.lower, 5),
-                    Number(s.upper, 5),
-                    s.count});
+    list.push_back(
+        {Number(s.x, 4), Number(s.share, 5), Number(s.lower, 5), Number(s.upper, 5), s.count});
   }
   return list;
 }
@@ -190,19 +186,20 @@ std::string SummaryJson(const ReportData& data) {
   for (const ReportTable& table : data.tables) {
     tables.push_back({{"title", table.title}, {"header", table.header}, {"rows", table.rows}});
   }
-  return SafeDump({{"title", data.title},
-                   {"command", data.command},
-                   {"version", data.version},
-                   {"crs", data.crs},
-                   {"rightText", data.right_text},
-                   {"facts", PairsJson(data.facts)},
-                   {"runs", runs},
-                   {"recall", CurveJson(RecallCurve(data.runs))},
-                   {"reliability", CurveJson(Reliability(data.runs, 10))},
-                   {"plots", plots},
-                   {"tables", tables},
-                   {"warnings", data.warnings},
-                   {"options", data.options_json}});
+  return SafeDump(
+      {{"title", data.title},
+       {"command", data.command},
+       {"version", data.version},
+       {"crs", data.crs},
+       {"rightText", data.right_text},
+       {"facts", PairsJson(data.facts)},
+       {"runs", runs},
+       {"recall", CurveJson(data.has_recall ? RecallCurve(data.runs) : std::vector<Share95>{})},
+       {"reliability", CurveJson(Reliability(data.runs, 10))},
+       {"plots", plots},
+       {"tables", tables},
+       {"warnings", data.warnings},
+       {"options", data.options_json}});
 }
 
 std::string PhotoJson(const ReportPhoto& photo, int max_side_px) {

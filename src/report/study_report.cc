@@ -245,6 +245,7 @@ BenchRun RunOf(const Query& query, const ScoreStudy& study, const StudyOptions& 
   BenchRun run;
   run.query = study.query;
   run.prior = study.prior;
+  run.ranges = study.ranges;
   run.localization.map = study.map;
   run.localization.status = LocalizationStatus::kNoVisibleModel;
   run.localization.reason = study.reason;
@@ -297,17 +298,10 @@ ReportData StudyReport(const ReportOrigin& origin,
     runs.push_back(RunOf(names.dataset.queries[study.query], study, options));
   }
   PictureReader pictures;
-  ReportData data = BenchReport(origin,
-                                names.dataset.queries,
-                                localizer,
-                                RangesOf(localizer.options().search.space, options.perturb),
-                                runs,
-                                pictures);
+  ReportData data = BenchReport(origin, names.dataset.queries, localizer, runs, pictures);
   data.facts = {{"queries", std::to_string(studies.size() / names.scores.size())},
                 {"scores", std::to_string(names.scores.size())},
-                {"prior drawn within",
-                 Text("±\u00a0%g\u00a0m", options.perturb.east_m) +
-                     Text(", ±\u00a0%g°", options.perturb.heading_deg)}};
+                {"protocol", origin.protocol.name}};
   data.right_text = "maps have their minimum within 2 m and 2°";
   data.tables = {ScoreTable(summaries)};
   for (std::size_t i = 0; i < studies.size(); ++i) {

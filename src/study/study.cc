@@ -22,6 +22,7 @@ class QueryStudy {
  public:
   QueryStudy(const Query& query,
              const LocalizationInput& input,
+             const PoseSpaceOptions& ranges,
              const Localizer& localizer,
              const StudyOptions& options)
       : localizer_(localizer),
@@ -34,11 +35,7 @@ class QueryStudy {
                   localizer.options().score.evidence,
                   options.threads,
                   input.lines),
-        space_(input.prior,
-               RangesOf(localizer.options().search.space, options.perturb),
-               localizer.scene(),
-               localizer.dtm(),
-               localizer.footprints()) {
+        space_(input.prior, ranges, localizer.scene(), localizer.dtm(), localizer.footprints()) {
     truth_.center_in_world -= localizer.scene().model().origin_in_world;
   }
 
@@ -52,6 +49,7 @@ class QueryStudy {
     ScoreStudy study;
     study.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     study.prior = prior_;
+    study.ranges = space_.ranges();
     study.picture_lines = static_cast<int>(evidence_.segments().size());
     study.visible_edges = VisibleEdgesAtTruth();
     study.figures = ReliabilityOf(scored);
@@ -155,7 +153,7 @@ class QueryStudy {
 
 LocalizationInput StudyInput(const Query& query,
                              const LocalizerOptions& localizer_options,
-                             const StudyOptions& options) {
+                             const SearchStart& start) {
   PictureReader pictures;
   LocalizationInput input = InputOf(query, localizer_options, pictures);
   if (input.picture.cols != input.camera.width || input.picture.rows != input.camera.height) {
@@ -166,7 +164,7 @@ LocalizationInput StudyInput(const Query& query,
         "the camera's " + std::to_string(input.camera.width) + " x " +
             std::to_string(input.camera.height) + " px");
   }
-  input.prior = DrawPrior(*query.truth, options.perturb, options.seed, query.id);
+  input.prior = start.prior;
   return input;
 }
 
@@ -221,7 +219,7 @@ std::vector<std::size_t> StudyQueries(const Dataset& dataset, const std::vector<
   return queries;
 }
 
-std::vector<ScoreStudy> RunStudy(const Dataset& dataset,
+std::vector<ScoreStudy> RunStudy(const BenchQueries& source,
                                  std::span<const std::size_t> queries,
                                  const Localizer& localizer,
                                  std::span<const ScoreChoice> scores,
@@ -229,9 +227,10 @@ std::vector<ScoreStudy> RunStudy(const Dataset& dataset,
                                  const StudyProgressFunction& progress) {
   std::vector<ScoreStudy> studies;
   for (const std::size_t q : queries) {
-    const Query& query = dataset.queries[q];
+    const Query& query = source.dataset().queries[q];
+    const SearchStart start = source.Start(q, options.seed, localizer);
     const QueryStudy of_query(
-        query, StudyInput(query, localizer.options(), options), localizer, options);
+        query, StudyInput(query, localizer.options(), start), start.ranges, localizer, options);
     for (std::size_t s = 0; s < scores.size(); ++s) {
       ScoreStudy study = of_query.Map(scores[s]);
       of_query.AddSampled(scores[s], study);
@@ -246,7 +245,7 @@ std::vector<ScoreStudy> RunStudy(const Dataset& dataset,
   return studies;
 }
 
-std::vector<VariedStudy> RunVariations(const Dataset& dataset,
+std::vector<VariedStudy> RunVariations(const BenchQueries& source,
                                        std::span<const std::size_t> queries,
                                        const Localizer& localizer,
                                        std::span<const ScoreChoice> scores,
@@ -270,11 +269,12 @@ std::vector<VariedStudy> RunVariations(const Dataset& dataset,
                              std::move(dtm),
                              VariedOptions(localizer.options(), variation, level));
       for (const std::size_t q : queries) {
-        const Query& query = dataset.queries[q];
-        LocalizationInput input = StudyInput(query, varied.options(), options);
+        const Query& query = source.dataset().queries[q];
+        const SearchStart start = source.Start(q, options.seed, localizer);
+        LocalizationInput input = StudyInput(query, varied.options(), start);
         input.picture = VariedPicture(input.picture, variation, level, options.seed, query.id);
         input.camera = VariedCamera(input.camera, variation, level);
-        const QueryStudy of_query(query, input, varied, options);
+        const QueryStudy of_query(query, input, start.ranges, varied, options);
         for (std::size_t s = 0; s < scores.size(); ++s) {
           ScoreChoice choice = scores[s];
           choice.options.evidence = varied.options().score.evidence;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/perturb.h"
+#include "eval/bench_queries.h"
 #include "input/dataset.h"
 #include "localize/localizer.h"
 #include "study/explore.h"
@@ -18,9 +18,7 @@
 namespace ridgeline {
 
 struct StudyOptions {
-  // Error of the drawn prior; the map covers the same box around it. Those of Loeper et al.
-  Perturbation perturb{10.0, 10.0, 0.0, 20.0, 0.0, 0.0};
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;  // of priors, searches and variations
   // Evaluations of the sampled search after which the paper looks at score and error (its Fig. 5).
   std::vector<int> classes = {50, 100, 200};
   // Whether X, Y are explored as in Ayadi et al., Fig. 9.
@@ -47,6 +45,7 @@ struct ScoreStudy {
   std::size_t score = 0;  // index into the scores
   std::string set;        // of the query
   PosePrior prior;
+  PoseSpaceOptions ranges;             // half-ranges of the map around the prior
   std::optional<Reliability> figures;  // absent: every pose has the energy 1
   std::string reason;                  // why they are absent; empty where they are not
   Pose minimum;                        // world frame; of the map, where there are figures
@@ -79,9 +78,10 @@ using StudyProgressFunction = std::function<void(const StudyProgress&)>;
 // none (with the nearest), a named query without truth, and a dataset without any truth.
 std::vector<std::size_t> StudyQueries(const Dataset& dataset, const std::vector<std::string>& ids);
 
-// Every score on every query, by query, then score. One picture at a time, on all threads; the same
-// result on any number of them.
-std::vector<ScoreStudy> RunStudy(const Dataset& dataset,
+// Every score on every query, by query, then score; the map covers the box that the protocol gives
+// a search. `queries` are indices into the dataset of `source`, usable ones. One picture at a time,
+// on all threads; the same result on any number of them.
+std::vector<ScoreStudy> RunStudy(const BenchQueries& source,
                                  std::span<const std::size_t> queries,
                                  const Localizer& localizer,
                                  std::span<const ScoreChoice> scores,
@@ -89,7 +89,7 @@ std::vector<ScoreStudy> RunStudy(const Dataset& dataset,
                                  const StudyProgressFunction& progress);
 
 // The maps' figures at every level of every variation, one circumstance at a time.
-std::vector<VariedStudy> RunVariations(const Dataset& dataset,
+std::vector<VariedStudy> RunVariations(const BenchQueries& source,
                                        std::span<const std::size_t> queries,
                                        const Localizer& localizer,
                                        std::span<const ScoreChoice> scores,

@@ -88,18 +88,21 @@ std::string FiguresCsv(const StudyNames& names, std::span<const ScoreStudy> stud
   return csv.str();
 }
 
-std::string SummaryCsv(std::span<const StudySummary> summaries) {
+std::string SummaryCsv(const Protocol& protocol, std::span<const StudySummary> summaries) {
   std::ostringstream csv;
-  csv << "score,set,queries,with_figures" << RecallHeader() << FigureHeader() << ",seconds\n";
+  csv << "protocol,score,set,queries,with_figures" << RecallHeader() << FigureHeader()
+      << ",seconds\n";
   for (const StudySummary& summary : summaries) {
-    csv << CsvField(summary.score) << ',' << CsvField(summary.set) << ',' << summary.queries << ','
-        << summary.with_figures << SummaryFields(summary) << ',' << CsvNumber(summary.seconds, 3)
-        << '\n';
+    csv << CsvField(protocol.name) << ',' << CsvField(summary.score) << ',' << CsvField(summary.set)
+        << ',' << summary.queries << ',' << summary.with_figures << SummaryFields(summary) << ','
+        << CsvNumber(summary.seconds, 3) << '\n';
   }
   return csv.str();
 }
 
-std::string StudySummaryJson(const std::string& dataset, std::span<const StudySummary> summaries) {
+std::string StudySummaryJson(const std::string& dataset,
+                             const Protocol& protocol,
+                             std::span<const StudySummary> summaries) {
   Json rows = Json::array();
   for (const StudySummary& summary : summaries) {
     Json row = {{"score", summary.score},
@@ -116,7 +119,7 @@ std::string StudySummaryJson(const std::string& dataset, std::span<const StudySu
     row["seconds_per_map"] = summary.seconds;
     rows.push_back(std::move(row));
   }
-  return Json({{"dataset", dataset}, {"scores", rows}})
+  return Json({{"dataset", dataset}, {"protocol", protocol.name}, {"scores", rows}})
              .dump(1, ' ', false, Json::error_handler_t::replace) +
          "\n";
 }

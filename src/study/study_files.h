@@ -24,9 +24,11 @@ struct StudyNames {
 // One row per query and score.
 std::string FiguresCsv(const StudyNames& names, std::span<const ScoreStudy> studies);
 // One row per score and set.
-std::string SummaryCsv(std::span<const StudySummary> summaries);
+std::string SummaryCsv(const Protocol& protocol, std::span<const StudySummary> summaries);
 // The same, for --json.
-std::string StudySummaryJson(const std::string& dataset, std::span<const StudySummary> summaries);
+std::string StudySummaryJson(const std::string& dataset,
+                             const Protocol& protocol,
+                             std::span<const StudySummary> summaries);
 // Energy by position of one query and score, the least over orientations.
 std::string MapCsv(const EnergyMap& map);
 // Energy by heading, the least over positions.

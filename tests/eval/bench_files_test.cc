@@ -40,7 +40,7 @@ TEST(SummaryJson, WithoutTruthErrorsAreNullAndNotZero) {
   RunRecord run = Answer();
   run.confidence = 0.95;
   const auto json =
-      nlohmann::json::parse(SummaryJson("d", "default", std::vector<RunRecord>{run}));
+      nlohmann::json::parse(SummaryJson("d", "default", Protocol{}, std::vector<RunRecord>{run}));
   EXPECT_EQ(json["runs_with_truth"], 0);
   EXPECT_TRUE(json["recall"].is_null());
   EXPECT_TRUE(json["translation_error_m"].is_null());
@@ -50,7 +50,7 @@ TEST(SummaryJson, WithoutTruthErrorsAreNullAndNotZero) {
   run.has_truth = true;
   run.error = PoseError{0.3, 0.3, 0.1};
   const auto known =
-      nlohmann::json::parse(SummaryJson("d", "default", std::vector<RunRecord>{run}));
+      nlohmann::json::parse(SummaryJson("d", "default", Protocol{}, std::vector<RunRecord>{run}));
   EXPECT_DOUBLE_EQ(known["recall"]["2m_2deg"].get<double>(), 1.0);
 }
 
@@ -70,8 +70,8 @@ TEST(PosesCsv, OwnResultsAreReadBack) {
 TEST(PosesCsv, BadFilesAreNamed) {
   const auto path = std::filesystem::path(testing::TempDir()) /
                     ("ridgeline_poses_" + std::to_string(::getpid()) + ".csv");
-  for (const char* bad : {"query,e,n\n", "query,e,n,h,qw,qx,qy,qz\n",
-                          "query,e,n,h,qw,qx,qy,qz\na,1,2,x,1,0,0,0\n"}) {
+  for (const char* bad :
+       {"query,e,n\n", "query,e,n,h,qw,qx,qy,qz\n", "query,e,n,h,qw,qx,qy,qz\na,1,2,x,1,0,0,0\n"}) {
     WriteFileAtomically(path, bad);
     EXPECT_THROW(ReadPosesCsv(path), InputError) << bad;
   }
@@ -82,8 +82,7 @@ TEST(PosesText, TranslationIsColmapsAboutTheOrigin) {
   RunRecord run = Answer();
   run.query = "q";
   const std::string text = PosesText(std::vector<RunRecord>{run}, origin);
-  const Eigen::Vector3d t =
-      -(run.pose->cam_from_world * (run.pose->center_in_world - origin));
+  const Eigen::Vector3d t = -(run.pose->cam_from_world * (run.pose->center_in_world - origin));
   char expected[100];
   std::snprintf(expected, sizeof(expected), "%.5f %.5f %.5f\n", t.x(), t.y(), t.z());
   EXPECT_THAT(text, testing::EndsWith(expected));

@@ -6,8 +6,10 @@
 namespace ridgeline {
 namespace {
 
-RunRecord Answered(const std::string& query, double translation_m, double rotation_deg,
-              double confidence) {
+RunRecord Answered(const std::string& query,
+                   double translation_m,
+                   double rotation_deg,
+                   double confidence) {
   RunRecord run;
   run.query = query;
   run.status = "ok";
@@ -38,17 +40,20 @@ TEST(ErrorOf, IsDistanceAndAngle) {
 }
 
 TEST(Summarize, CountsBothLimitsAndTakesAbstentionsForMisses) {
-  const std::vector<RunRecord> runs = {Answered("a", 0.4, 0.9, 0.95), Answered("b", 1.9, 2.1, 0.95),
-                                       Answered("c", 2.0, 2.0, 0.5), Abstained("d")};
+  const std::vector<RunRecord> runs = {Answered("a", 0.4, 0.9, 0.95),
+                                       Answered("b", 1.9, 2.1, 0.95),
+                                       Answered("c", 2.0, 2.0, 0.5),
+                                       Abstained("d")};
   const Summary summary = Summarize(runs);
   EXPECT_EQ(summary.queries, 4);
   EXPECT_EQ(summary.runs, 4);
-  EXPECT_DOUBLE_EQ(summary.recall[0], 0.25);           // 0.5 m, 1 deg
-  EXPECT_DOUBLE_EQ(summary.recall[2], 0.5);            // 2 m, 2 deg: a and c
+  EXPECT_DOUBLE_EQ(summary.recall[0], 0.25);  // 0.5 m, 1 deg
+  EXPECT_DOUBLE_EQ(summary.recall[2], 0.5);   // 2 m, 2 deg: a and c
   EXPECT_DOUBLE_EQ(summary.recall_answered[2], 2.0 / 3.0);
   EXPECT_DOUBLE_EQ(summary.recall[3], 0.75);
-  EXPECT_DOUBLE_EQ(summary.abstained, 0.25);
-  EXPECT_DOUBLE_EQ(summary.confident, 0.5);
+  EXPECT_DOUBLE_EQ(summary.abstained.share, 0.25);
+  EXPECT_DOUBLE_EQ(summary.confident.share, 0.5);
+  EXPECT_DOUBLE_EQ(summary.confident_wrong.share, 0.25);  // b
   EXPECT_DOUBLE_EQ(summary.confident_recall_2m_2deg, 0.5);
   EXPECT_DOUBLE_EQ(summary.translation_m.median, 1.9);
   EXPECT_NEAR(summary.translation_m.mean, 4.3 / 3.0, 1e-12);
@@ -65,6 +70,8 @@ TEST(Summarize, IntervalsHoldTheRecallAndShrinkWithQueries) {
     if (i < 10) few.push_back(run);
     many.push_back(run);
   }
+  // statsmodels: proportion_confint(5, 10, method="wilson").
+  EXPECT_NEAR(Summarize(few).recall_ci95[2].lower, 0.236593, 1e-6);
   const Interval95 wide = Summarize(few).recall_ci95[2];
   const Interval95 narrow = Summarize(many).recall_ci95[2];
   EXPECT_LE(wide.lower, 0.5);

@@ -35,13 +35,6 @@ TEST(RecallCurve, IsEmptyWithoutTruth) {
   EXPECT_TRUE(RecallCurve(std::vector<ReportRun>{run}).empty());
 }
 
-TEST(WilsonShare, MatchesTheTextbook) {
-  // 8 of 10 at 95 %: Wilson (1927), e.g. statsmodels proportion_confint(8, 10, method="wilson").
-  const Share95 share = WilsonShare(0.5, 8, 10);
-  EXPECT_NEAR(share.lower, 0.4901625, 1e-6);
-  EXPECT_NEAR(share.upper, 0.9433178, 1e-6);
-}
-
 TEST(Reliability, PutsRunsIntoBinsOfConfidence) {
   const std::vector<ReportRun> runs = {MakeRun("a", 0.1, 0.95),
                                        MakeRun("b", 3.0, 0.91),

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "study/street_study.h"
 #include "study/study.h"
+#include "support/street_study.h"
 
 namespace ridgeline {
 namespace {
@@ -12,11 +12,10 @@ namespace {
 TEST(Explore, IsNowhereWorseThanTheMapAndFinerThanIt) {
   const ::ridgeline::testing::StreetStudy street;
   StudyOptions options;
-  options.perturb = {2.0, 2.0, 0.0, 6.0, 0.0, 0.0};
   options.classes = {5};
   options.explore = true;
   const std::vector<std::size_t> queries = {0};
-  const auto studies = RunStudy(street.dataset(),
+  const auto studies = RunStudy(BenchQueries(PerturbedProtocol("2,2,0,6"), street.dataset(), {}),
                                 queries,
                                 street.localizer(),
                                 ChooseScores({"skyline_l1", "line_energy"}, {}),

@@ -53,11 +53,12 @@ TEST_F(StudyFiles, RowsHaveAsManyFieldsAsTheHeader) {
   study_.heading_energy = {0.5};
   study_.by_distance = {{0.0, 1.0, 3, 0.5, 2.0, 1.0}};
   const std::vector<ScoreStudy> studies = {study_};
-  for (const std::string& csv : {FiguresCsv(names, studies),
-                                 HeadingsCsv(names, studies),
-                                 ProfilesCsv(names, studies),
-                                 SampledCsv(names, studies),
-                                 SummaryCsv(SummariesOf(studies, scores_, "town"))}) {
+  for (const std::string& csv :
+       {FiguresCsv(names, studies),
+        HeadingsCsv(names, studies),
+        ProfilesCsv(names, studies),
+        SampledCsv(names, studies),
+        SummaryCsv(FindProtocol("known-tilt"), SummariesOf(studies, scores_, "town"))}) {
     const std::string header = csv.substr(0, csv.find('\n'));
     const std::string row = csv.substr(header.size() + 1);
     EXPECT_EQ(Lines(csv), 2) << csv;
@@ -79,7 +80,9 @@ TEST_F(StudyFiles, TheSkylinesDistanceIsGivenInPixels) {
 TEST_F(StudyFiles, JsonHasNullForWhatIsNotDefined) {
   study_.figures.emplace();
   const std::string json =
-      StudySummaryJson("town", SummariesOf(std::vector<ScoreStudy>{study_}, scores_, "town"));
+      StudySummaryJson("town",
+                       FindProtocol("known-tilt"),
+                       SummariesOf(std::vector<ScoreStudy>{study_}, scores_, "town"));
   EXPECT_THAT(json, HasSubstr("\"better_share\": null"));
   EXPECT_THAT(json, HasSubstr("\"2m_2deg\": 1.0"));
 }

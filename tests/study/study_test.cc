@@ -6,9 +6,9 @@
 
 #include "base/error.h"
 #include "eval/metrics.h"
-#include "study/street_study.h"
 #include "study/study_files.h"
 #include "study/study_summary.h"
+#include "support/street_study.h"
 
 namespace ridgeline {
 namespace {
@@ -20,14 +20,16 @@ class Study : public ::testing::Test {
  protected:
   StudyOptions Options(int threads = 0) const {
     StudyOptions options;
-    options.perturb = {3.0, 3.0, 0.0, 8.0, 0.0, 0.0};
     options.classes = {10, 25};
     options.threads = threads;
     return options;
   }
+  static BenchQueries Source(const Dataset& dataset) {
+    return {PerturbedProtocol("3,3,0,8"), dataset, {}};
+  }
   std::vector<ScoreStudy> Studies(const std::vector<std::string>& names, int threads = 0) const {
     const std::vector<std::size_t> queries = {0};
-    return RunStudy(street_.dataset(),
+    return RunStudy(Source(street_.dataset()),
                     queries,
                     street_.localizer(),
                     ChooseScores(names, street_.localizer().options().score),
@@ -91,7 +93,7 @@ TEST_F(Study, APictureThatShowsNothingHasNoFiguresAndAReason) {
   const std::vector<ScoreChoice> scores =
       ChooseScores({"all"}, street_.localizer().options().score);
   const std::vector<ScoreStudy> studies =
-      RunStudy(dataset, queries, street_.localizer(), scores, Options(), {});
+      RunStudy(Source(dataset), queries, street_.localizer(), scores, Options(), {});
   ASSERT_EQ(studies.size(), scores.size());
   for (std::size_t s = 0; s < studies.size(); ++s) {
     EXPECT_FALSE(studies[s].figures.has_value()) << scores[s].name;
@@ -119,7 +121,7 @@ TEST_F(Study, ALevelThatChangesNothingGivesTheStudyItself) {
   const std::vector<ScoreChoice> scores =
       ChooseScores({"evidence"}, street_.localizer().options().score);
   const std::vector<VariedStudy> varied = RunVariations(
-      street_.dataset(), queries, street_.localizer(), scores, variations, Options(), {});
+      Source(street_.dataset()), queries, street_.localizer(), scores, variations, Options(), {});
   ASSERT_EQ(varied.size(), 3u);
   const ScoreStudy plain = Studies({"evidence"}).front();
   for (const std::size_t i : {0, 1}) {
