@@ -34,14 +34,14 @@ TEST_F(BenchQueriesOfAStreet, NoPriorAtAllIsAnError) {
     BenchQueries queries(street_.dataset());
     FAIL();
   } catch (const InputError& e) {
-    EXPECT_THAT(e.what(), testing::HasSubstr("--protocol"));
+    EXPECT_THAT(e.what(), ::testing::HasSubstr("--protocol"));
   }
 }
 
 TEST_F(BenchQueriesOfAStreet, TerrainHeightsNeedATerrain) {
   // Neither a terrain model nor a city model in a file.
-  EXPECT_THAT(ErrorWith(FindProtocol("phone")), testing::Not(testing::StrEq("no error")));
-  EXPECT_THAT(ErrorWith(FindProtocol("known-tilt")), testing::StrEq("no error"));
+  EXPECT_THAT(ErrorWith(FindProtocol("phone")), ::testing::Not(::testing::StrEq("no error")));
+  EXPECT_THAT(ErrorWith(FindProtocol("known-tilt")), ::testing::StrEq("no error"));
 }
 
 TEST_F(BenchQueriesOfAStreet, PlacesAreTruthsOrElsePriors) {
