@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "projection/simd4.h"
+
 namespace ridgeline {
 
 // Arc tangent for x in [0, 1]; error below 2e-7 in floats. T: float or simd::Float4.
@@ -19,6 +21,14 @@ inline T FastAtanUpToOne(T x) {
   p = p * s + 0.1999355085f;
   p = p * s - 0.3333314528f;
   return x + x * s * p;
+}
+
+// Angles of four vectors (x, y) from the x axis, x and y >= 0: [0, pi / 2]. 0 for (0, 0).
+inline simd::Float4 FastAngleFromAxis(simd::Float4 x, simd::Float4 y) {
+  constexpr float kTiny = 1e-30f;
+  const simd::Float4 larger = simd::Max(simd::Max(x, y), simd::Splat(kTiny));
+  const simd::Float4 angle = FastAtanUpToOne(simd::Min(x, y) / larger);
+  return y > x ? static_cast<float>(std::numbers::pi / 2) - angle : angle;
 }
 
 // Arc tangent for x >= 0; error below 3e-7.

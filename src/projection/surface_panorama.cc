@@ -17,26 +17,17 @@ constexpr float kPi = std::numbers::pi_v<float>;
 // Spacing of the first rays, in cells; a power of two.
 constexpr int kCoarsest = 4;
 
-// Angle of the vectors (x, y) from the x axis, x and y >= 0.
-Float4 FirstQuadrantAngle(Float4 x, Float4 y) {
-  constexpr float kTiny = 1e-30f;
-  const Float4 angle =
-      FastAtanUpToOne(simd::Min(x, y) / simd::Max(simd::Max(x, y), simd::Splat(kTiny)));
-  return y > x ? 0.5f * kPi - angle : angle;
-}
-
 }  // namespace
 
 SurfacePanorama::Places SurfacePanorama::PlacesOf(const simd::Vec3x4& directions) const {
   const auto& [east, north, height] = directions;
   const auto inverse_step = static_cast<float>(1.0 / step);
-  Float4 azimuth = FirstQuadrantAngle(simd::Abs(north), simd::Abs(east));
+  Float4 azimuth = FastAngleFromAxis(simd::Abs(north), simd::Abs(east));
   azimuth = north < 0.0f ? kPi - azimuth : azimuth;
   azimuth = east < 0.0f ? -azimuth : azimuth;
   const auto first = static_cast<float>(first_azimuth);
   azimuth = azimuth < first - static_cast<float>(0.5 * step) ? azimuth + 2.0f * kPi : azimuth;
-  const Float4 rise =
-      FirstQuadrantAngle(simd::Sqrt(east * east + north * north), simd::Abs(height));
+  const Float4 rise = FastAngleFromAxis(simd::Sqrt(east * east + north * north), simd::Abs(height));
   const Float4 elevation = height < 0.0f ? -rise : rise;
   return {(azimuth - first) * inverse_step + 0.5f,
           (elevation - static_cast<float>(first_elevation)) * inverse_step + 0.5f};

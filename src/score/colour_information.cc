@@ -100,46 +100,70 @@ ColourInformation::ColourInformation(const cv::Mat& bgr,
   }
 }
 
+// Over the colours, in four sums side by side.
+double ColourInformation::SumOfLogRising(const std::uint32_t* counts) const {
+  std::array<double, 4> sums{};
+  int c = 0;
+  for (; c + 4 <= kColours; c += 4) {
+    for (int k = 0; k < 4; ++k) sums[k] += log_rising_colour_[counts[c + k]];
+  }
+  for (; c < kColours; ++c) sums[0] += log_rising_colour_[counts[c]];
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
+
 ColourInformation::Cues ColourInformation::Of(std::span<const std::uint16_t> groups,
                                               int group_count,
                                               Workspace& workspace) const {
   if (!has_colours_) return {};
   std::vector<std::uint32_t>& joint = workspace.joint;
-  std::vector<std::uint32_t>& of_group = workspace.of_group;
-  std::vector<std::uint16_t>& in_view = workspace.in_view;
+  std::vector<std::uint8_t>& in_view = workspace.in_view;
   const auto count = static_cast<std::size_t>(group_count);
-  if (of_group.size() < count) {
-    of_group.resize(count, 0);
-    joint.resize(count * kColours, 0);
+  if (in_view.size() <= count) {
+    in_view.resize(count + 1, 0);
+    joint.resize((count + 1) * kStride, 0);
   }
-  in_view.clear();
-  for (std::size_t cell = 0; cell < colours_.size(); ++cell) {
-    const std::uint16_t g = groups[cell];
-    if (g == kNoGroup || colours_[cell] == kHidden) continue;
-    if (of_group[g]++ == 0) in_view.push_back(g);
-    ++joint[g * std::size_t{kColours} + colours_[cell]];
+  // Cells without a group or a colour are counted in a row and a column of their own. Cells that
+  // follow each other would wait for each other's counts: neighbours are four parts of the picture.
+  const auto add = [count,
+                    group_of_cell = groups.data(),
+                    colour_of_cell = colours_.data(),
+                    counts = joint.data(),
+                    is_in_view = in_view.data()](std::size_t cell) {
+    const std::size_t g = std::min<std::size_t>(group_of_cell[cell], count);
+    ++counts[g * kStride + colour_of_cell[cell]];
+    is_in_view[g] = 1;
+  };
+  const std::size_t part = colours_.size() / 4;
+  for (std::size_t i = 0; i < part; ++i) {
+    add(i);
+    add(part + i);
+    add(2 * part + i);
+    add(3 * part + i);
   }
+  for (std::size_t cell = 4 * part; cell < colours_.size(); ++cell) add(cell);
 
   enum { kSky, kBuilding, kGround, kRegions };
   std::array<std::array<std::uint32_t, kColours>, kRegions> of_region_and_colour{};
   std::array<std::uint32_t, kRegions> of_region{};
   double facades = 0.0;
-  for (const std::uint16_t g : in_view) {
-    const int region = g == kSkyGroup ? kSky : g == kGroundGroup ? kGround : kBuilding;
-    std::uint32_t* counts = &joint[g * std::size_t{kColours}];
-    for (int c = 0; c < kColours; ++c) of_region_and_colour[region][c] += counts[c];
-    if (region == kBuilding) {
-      for (int c = 0; c < kColours; ++c) facades += log_rising_colour_[counts[c]];
-      facades -= log_rising_all_[of_group[g]];
+  for (std::size_t g = 0; g <= count; ++g) {
+    if (in_view[g] == 0) continue;
+    in_view[g] = 0;
+    std::uint32_t* const counts = &joint[g * kStride];
+    if (g < count) {
+      const int region = g == kSkyGroup ? kSky : g == kGroundGroup ? kGround : kBuilding;
+      std::uint32_t of_group = 0;
+      for (int c = 0; c < kColours; ++c) {
+        of_group += counts[c];
+        of_region_and_colour[region][c] += counts[c];
+      }
+      if (region == kBuilding) facades += SumOfLogRising(counts) - log_rising_all_[of_group];
+      of_region[region] += of_group;
     }
-    of_region[region] += of_group[g];
-    std::fill_n(counts, kColours, 0u);
-    of_group[g] = 0;
+    std::fill_n(counts, kStride, 0u);
   }
-  for (int c = 0; c < kColours; ++c) {
-    facades -= log_rising_colour_[of_region_and_colour[kBuilding][c]];
-  }
-  facades += log_rising_all_[of_region[kBuilding]];
+  facades += log_rising_all_[of_region[kBuilding]] -
+             SumOfLogRising(of_region_and_colour[kBuilding].data());
 
   const std::uint32_t total = of_region[kSky] + of_region[kBuilding] + of_region[kGround];
   // Without a building in view the sky and the ground alone would agree with any meadow.
@@ -176,7 +200,8 @@ void ColourInformation::FindGroups(const SurfacePanorama& surfaces,
                                 simd::Splat(world_from_cam.row(1)),
                                 simd::Splat(world_from_cam.row(2))};
   const auto in_world = [&](const simd::Vec3x4& rays) {
-    return simd::Vec3x4{simd::Dot(rows[0], rays), simd::Dot(rows[1], rays), simd::Dot(rows[2], rays)};
+    return simd::Vec3x4{
+        simd::Dot(rows[0], rays), simd::Dot(rows[1], rays), simd::Dot(rows[2], rays)};
   };
   workspace.nodes.resize(node_rays_.size());
   for (std::size_t i = 0; i < node_rays_.size(); ++i) {
@@ -198,16 +223,15 @@ void ColourInformation::FindGroups(const SurfacePanorama& surfaces,
       const Eigen::Vector2f right = node(j, i + 1) - a;
       const Eigen::Vector2f down = node(j + 1, i) - a;
       const Eigen::Vector2f twist = node(j + 1, i + 1) - a - right - down;
-      const bool is_smooth = std::abs(right.x()) < limit && std::abs(down.x()) < limit &&
-                             std::abs(twist.x()) < limit;
+      const bool is_smooth =
+          std::abs(right.x()) < limit && std::abs(down.x()) < limit && std::abs(twist.x()) < limit;
       const int lanes = std::min(kBlock, camera_.width - kBlock * i);
       for (int s = 0; s < kBlock && kBlock * j + s < camera_.height; ++s) {
         simd::Int4 cells;
         if (is_smooth) {
           const float t = static_cast<float>(s) / kBlock;
-          cells = surfaces.CellsAt(
-              {a.x() + t * down.x() + (right.x() + t * twist.x()) * kLanes,
-               a.y() + t * down.y() + (right.y() + t * twist.y()) * kLanes});
+          cells = surfaces.CellsAt({a.x() + t * down.x() + (right.x() + t * twist.x()) * kLanes,
+                                    a.y() + t * down.y() + (right.y() + t * twist.y()) * kLanes});
         } else {
           simd::Vec3x4 rays = simd::Splat(Eigen::Vector3f(0.0f, 0.0f, 1.0f));
           for (int lane = 0; lane < kBlock; ++lane) {
@@ -217,10 +241,11 @@ void ColourInformation::FindGroups(const SurfacePanorama& surfaces,
           cells = surfaces.Find(in_world(rays));
         }
         std::uint16_t* out =
-            &workspace.groups[static_cast<std::size_t>(kBlock * j + s) * camera_.width + kBlock * i];
+            &workspace
+                 .groups[static_cast<std::size_t>(kBlock * j + s) * camera_.width + kBlock * i];
         for (int lane = 0; lane < lanes; ++lane) {
-          out[lane] = cells[lane] < 0 ? kNoGroup
-                                      : groups.of_cell[static_cast<std::size_t>(cells[lane])];
+          out[lane] =
+              cells[lane] < 0 ? kNoGroup : groups.of_cell[static_cast<std::size_t>(cells[lane])];
         }
       }
     }

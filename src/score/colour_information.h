@@ -42,10 +42,9 @@ class ColourInformation {
   // Memory to use again.
   struct Workspace {
     std::vector<SurfacePanorama::Places> nodes;
-    std::vector<std::uint16_t> groups;    // by cell
-    std::vector<std::uint32_t> joint;     // cells by group and colour; all zero between uses
-    std::vector<std::uint32_t> of_group;  // cells by group; all zero between uses
-    std::vector<std::uint16_t> in_view;   // groups
+    std::vector<std::uint16_t> groups;  // by cell
+    std::vector<std::uint32_t> joint;   // cells by group and colour; all zero between uses
+    std::vector<std::uint8_t> in_view;  // by group; all zero between uses
   };
 
   // @param bgr  CV_8UC3; @param camera  of the picture.
@@ -79,6 +78,9 @@ class ColourInformation {
   static constexpr int kBlock = 4;
   static constexpr int kColours = kLumaBins * kChromaBins * kChromaBins;
   static constexpr std::uint8_t kHidden = kColours;
+  static constexpr std::size_t kStride = kColours + 2;  // of the counts of a group
+
+  double SumOfLogRising(const std::uint32_t* counts) const;
 
   PinholeCamera camera_;
   bool has_colours_ = false;

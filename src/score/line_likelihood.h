@@ -7,6 +7,7 @@
 
 #include "base/options.h"
 #include "projection/scene.h"
+#include "projection/simd4.h"
 #include "score/edge_kind.h"
 #include "score/oriented_distance_field.h"
 
@@ -31,11 +32,12 @@ struct LineLikelihoodOptions {
   void Validate() const;
 };
 
-// Log likelihood ratio of the picture's lines given the projected edges against lines at random with
-// the density rho [px / px^2] that the picture has there. The nearest line to a sample of an edge is
-// the edge's own, seen with probability v and half-normal distance h (wider towards the camera: model
-// errors are metres, not pixels), or the nearest random one, exponential with 2 rho. Its distance d
-// then counts log(1 - v + v * (h(d) / (2 rho) + P_h(> d))), or 0 where something hides the edge.
+// Log likelihood ratio of the picture's lines given the projected edges against lines at random
+// with the density rho [px / px^2] that the picture has there. The nearest line to a sample of an
+// edge is the edge's own, seen with probability v and half-normal distance h (wider towards the
+// camera: model errors are metres, not pixels), or the nearest random one, exponential with 2 rho.
+// Its distance d then counts log(1 - v + v * (h(d) / (2 rho) + P_h(> d))), or 0 where something
+// hides the edge.
 class LineLikelihood {
  public:
   LineLikelihood(const OrientedDistanceField& field,
@@ -49,20 +51,28 @@ class LineLikelihood {
 
  private:
   static constexpr int kSigmaLevels = 12;
-  static constexpr int kDistances = 256;
+  // Distances are looked up in steps of half a pixel.
+  static constexpr int kDistances = 64;
+  static constexpr int kUnitsPerDistance = 256 / kDistances;
   static constexpr int kDensityLevels = OrientedDistanceField::kHiddenLevel + 1;
 
-  const float* Table(EdgeKind kind, int sigma_level, int density_level) const {
-    return &table_[((static_cast<std::size_t>(kind) * kSigmaLevels + sigma_level) * kDensityLevels +
-                    density_level) *
-                   kDistances];
+  // Index into table_ of the first distance.
+  static std::size_t TableOf(EdgeKind kind, int sigma_level, int density_level) {
+    return ((static_cast<std::size_t>(kind) * kSigmaLevels + sigma_level) * kDensityLevels +
+            density_level) *
+           kDistances;
   }
-  int SigmaLevel(float inverse_depth) const;
+  // What all samples of a segment share, for four segments.
+  struct Strokes;
+  Strokes StrokesOf(const ProjectedSegment* segments, std::size_t count) const;
+  float SumAlong(const Strokes& strokes, int lane, EdgeKind kind) const;
+  simd::Int4 SigmaLevels(simd::Float4 inverse_depths) const;
 
   const OrientedDistanceField& field_;
   float spacing_px_ = 1.0f;
-  float sigma_px_ = 1.0f;
-  float sigma_model_px_m_ = 0.0f;  // f * sigma_model [px m]
+  int first_level_ = 0;  // of sigma, of an edge far away
+  // Least inverse depths [1 / m] of the levels after the first.
+  std::array<float, kSigmaLevels> nearer_{};
   std::vector<float> table_;
 };
 

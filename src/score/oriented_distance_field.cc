@@ -8,6 +8,7 @@
 #include <span>
 
 #include "base/parallel.h"
+#include "projection/fast_angle.h"
 #include "score/truncated_distance.h"
 
 namespace ridgeline {
@@ -30,6 +31,22 @@ double DirectionDeg(const LineSegment& segment) {
   return std::atan2(d.y(), d.x()) * 180.0 / std::numbers::pi;
 }
 
+// The least value of each cell of 2 x 2 pixels, row by row.
+void ReduceToLeast(const cv::Mat& pixels, int columns, std::uint8_t* cells) {
+  static_assert(OrientedDistanceField::kDistanceCellPx == 2);
+  for (int y = 0; y < pixels.rows; y += 2) {
+    const std::uint8_t* above = pixels.ptr(y);
+    const std::uint8_t* below = pixels.ptr(std::min(y + 1, pixels.rows - 1));
+    const int pairs = pixels.cols / 2;
+    for (int i = 0; i < pairs; ++i) {
+      cells[i] = std::min(std::min(above[2 * i], above[2 * i + 1]),
+                          std::min(below[2 * i], below[2 * i + 1]));
+    }
+    if (pairs < columns) cells[pairs] = std::min(above[2 * pairs], below[2 * pairs]);
+    cells += columns;
+  }
+}
+
 double UndirectedDifferenceDeg(double a, double b) {
   const double d = std::fmod(std::abs(a - b), 180.0);
   return std::min(d, 180.0 - d);
@@ -43,6 +60,17 @@ int OrientedDistanceField::DirectionOf(float dx, float dy) {
   return (bin + kDirections) % kDirections;
 }
 
+simd::Int4 OrientedDistanceField::DirectionsOf(simd::Float4 dx, simd::Float4 dy) {
+  // Of the opposite vector where it points up: angles in [0, 180) degrees.
+  const simd::Float4 across = dy < 0.0f ? -dx : dx;
+  const simd::Float4 angle = FastAngleFromAxis(simd::Abs(dx), simd::Abs(dy));
+  constexpr float kBinsPerRad = kDirections * std::numbers::inv_pi_v<float>;
+  const simd::Float4 bins = angle * kBinsPerRad;
+  const simd::Float4 place = across < 0.0f ? float{kDirections} - bins : bins;
+  const simd::Int4 bin = __builtin_convertvector(place, simd::Int4);
+  return bin < kDirections ? bin : simd::Int4{};
+}
+
 float OrientedDistanceField::DensityOfLevel(int level) {
   return static_cast<float>(kSmallestDensity * std::pow(kLevelRatio, level));
 }
@@ -54,9 +82,11 @@ OrientedDistanceField::OrientedDistanceField(const std::vector<LineSegment>& seg
                                              const cv::Mat& hidden)
     : width_(width),
       height_(height),
+      distance_columns_((width + kDistanceCellPx - 1) / kDistanceCellPx),
+      distance_rows_((height + kDistanceCellPx - 1) / kDistanceCellPx),
       cell_columns_((width + kDensityCellPx - 1) / kDensityCellPx),
       cell_rows_((height + kDensityCellPx - 1) / kDensityCellPx),
-      distances_(static_cast<std::size_t>(kDirections) * width * height),
+      distances_(static_cast<std::size_t>(kDirections) * distance_columns_ * distance_rows_),
       densities_(static_cast<std::size_t>(kDirections) * cell_columns_ * cell_rows_) {
   constexpr int kShift = 4;  // sub-pixel bits of cv::line
   const auto fixed = [](const Eigen::Vector2f& p) {
@@ -69,11 +99,7 @@ OrientedDistanceField::OrientedDistanceField(const std::vector<LineSegment>& seg
   }
   ParallelFor(kDirections, threads, [&](std::size_t index) {
     const int direction = static_cast<int>(index);
-    const std::span<std::uint8_t> pixels(
-        distances_.data() + static_cast<std::size_t>(direction) * width * height,
-        static_cast<std::size_t>(width) * height);
-    std::fill(pixels.begin(), pixels.end(), std::uint8_t{255});
-    cv::Mat free(height, width, CV_8U, pixels.data());
+    cv::Mat free(height, width, CV_8U, cv::Scalar(255));
     for (const LineSegment& segment : segments) {
       if (UndirectedDifferenceDeg(DirectionDeg(segment), BinCenterDeg(direction)) <=
           kDirectionToleranceDeg) {
@@ -94,7 +120,15 @@ OrientedDistanceField::OrientedDistanceField(const std::vector<LineSegment>& seg
       levels[i] = static_cast<std::uint8_t>(
           is_hidden ? kHiddenLevel : std::clamp(std::lround(level), 0L, kDensityLevels - 1L));
     }
-    TruncatedDistance(pixels, width, height);
+    const std::span<std::uint8_t> distances(
+        distances_.data() +
+            static_cast<std::size_t>(direction) * distance_columns_ * distance_rows_,
+        static_cast<std::size_t>(distance_columns_) * distance_rows_);
+    ReduceToLeast(free, distance_columns_, distances.data());
+    TruncatedDistance(distances,
+                      distance_columns_,
+                      distance_rows_,
+                      static_cast<int>(kUnitsPerPx) * kDistanceCellPx);
   });
 }
 

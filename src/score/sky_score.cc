@@ -2,47 +2,93 @@
 #include "score/sky_score.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
+#include "projection/simd4.h"
+
 namespace ridgeline {
+namespace {
+
+using simd::Float4;
+
+constexpr std::size_t kChunk = 32;
+constexpr float kMinZ = 0.05f;  // directions are unit vectors: nearly 90 degrees off the axis
+
+struct SkylinePoint {
+  bool is_ahead = false;
+  float x = 0.0f;  // [px]; without meaning unless ahead
+  float y = 0.0f;
+};
+
+void ProjectChunk(std::span<const Eigen::Vector3f> directions,
+                  const PinholeCamera& camera,
+                  const Eigen::Matrix3f& cam_from_world,
+                  std::array<SkylinePoint, kChunk>& points) {
+  const simd::Vec3x4 rows[3] = {simd::Splat(cam_from_world.row(0)),
+                                simd::Splat(cam_from_world.row(1)),
+                                simd::Splat(cam_from_world.row(2))};
+  const auto fx = static_cast<float>(camera.fx);
+  const auto fy = static_cast<float>(camera.fy);
+  const auto cx = static_cast<float>(camera.cx);
+  const auto cy = static_cast<float>(camera.cy);
+  for (std::size_t i = 0; i < directions.size(); i += 4) {
+    simd::Vec3x4 four;
+    for (std::size_t k = 0; k < 4; ++k) {
+      simd::SetLane(four, static_cast<int>(k), directions[std::min(i + k, directions.size() - 1)]);
+    }
+    const Float4 z = simd::Dot(rows[2], four);
+    const unsigned ahead = simd::Bits(z >= kMinZ);
+    const Float4 inverse_z = 1.0f / z;
+    const Float4 x = fx * simd::Dot(rows[0], four) * inverse_z + cx;
+    const Float4 y = fy * simd::Dot(rows[1], four) * inverse_z + cy;
+    for (std::size_t k = 0; k < 4; ++k) {
+      points[i + k] = {(ahead >> k & 1u) != 0, x[k], y[k]};
+    }
+  }
+}
+
+// Sets the rows of the columns whose centres lie in (a.x, b.x].
+void DrawRows(const SkylinePoint& a, const SkylinePoint& b, std::span<float> rows) {
+  if (!a.is_ahead || !b.is_ahead || !(b.x > a.x) || !(b.x > 0.0f)) return;
+  if (!(a.x < static_cast<float>(rows.size()))) return;
+  const int first = std::max(0, static_cast<int>(std::ceil(a.x - 0.5f)));
+  const int last =
+      std::min(static_cast<int>(rows.size()) - 1, static_cast<int>(std::floor(b.x - 0.5f)));
+  for (int c = first; c <= last; ++c) {
+    const float t = (static_cast<float>(c) + 0.5f - a.x) / (b.x - a.x);
+    rows[c] = a.y + t * (b.y - a.y);
+  }
+}
+
+}  // namespace
 
 void SkylineRows(std::span<const Eigen::Vector3f> directions,
                  const PinholeCamera& camera,
                  const Eigen::Matrix3f& cam_from_world,
                  std::span<float> rows) {
-  constexpr float kMinZ = 0.05f;  // directions are unit vectors: nearly 90 degrees off the axis
   std::fill(rows.begin(), rows.end(), std::numeric_limits<float>::quiet_NaN());
-  const float fx = static_cast<float>(camera.fx);
-  const float fy = static_cast<float>(camera.fy);
-  const float cx = static_cast<float>(camera.cx);
-  const float cy = static_cast<float>(camera.cy);
-  const int columns = static_cast<int>(rows.size());
-  const float width = static_cast<float>(columns);
-  bool has_last = false;
-  float last_x = 0.0f;
-  float last_y = 0.0f;
-  for (const Eigen::Vector3f& direction : directions) {
-    const Eigen::Vector3f p = cam_from_world * direction;
-    if (p.z() < kMinZ) {
-      has_last = false;
-      continue;
+  const auto width = static_cast<float>(rows.size());
+  SkylinePoint last;
+  std::array<SkylinePoint, kChunk> points;
+  for (std::size_t first = 0; first < directions.size(); first += kChunk) {
+    const std::size_t count = std::min(kChunk, directions.size() - first);
+    ProjectChunk(directions.subspan(first, count), camera, cam_from_world, points);
+    // Most of a wide skyline is beside the picture.
+    float left = last.is_ahead ? last.x : width;
+    float right = last.is_ahead ? last.x : 0.0f;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!points[i].is_ahead) continue;
+      left = std::min(left, points[i].x);
+      right = std::max(right, points[i].x);
     }
-    const float inverse_z = 1.0f / p.z();
-    const float x = fx * p.x() * inverse_z + cx;
-    const float y = fy * p.y() * inverse_z + cy;
-    if (has_last && x > last_x && x > 0.0f && last_x < width) {
-      // Columns whose centres lie in (last_x, x].
-      const int first = std::max(0, static_cast<int>(std::ceil(last_x - 0.5f)));
-      const int last = std::min(columns - 1, static_cast<int>(std::floor(x - 0.5f)));
-      for (int c = first; c <= last; ++c) {
-        const float t = (static_cast<float>(c) + 0.5f - last_x) / (x - last_x);
-        rows[c] = last_y + t * (y - last_y);
+    if (left < width && right > 0.0f) {
+      for (std::size_t i = 0; i < count; ++i) {
+        DrawRows(i == 0 ? last : points[i - 1], points[i], rows);
       }
     }
-    has_last = true;
-    last_x = x;
-    last_y = y;
+    last = points[count - 1];
   }
 }
 

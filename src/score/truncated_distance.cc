@@ -2,18 +2,24 @@
 #include "score/truncated_distance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
 namespace ridgeline {
 namespace {
 
-// Steps of the mask [1/8 px]: along an axis, diagonal, knight's move.
-constexpr std::uint8_t kAxis = 8;
-constexpr std::uint8_t kDiagonal = 11;
-constexpr std::uint8_t kKnight = 18;
-// Runs along a row are spread by steps of 1, 2, 4, 8 and 16 px: 31 px in all.
+// Runs along a row are spread by steps of 1, 2, 4, 8 and 16 pixels, as far as a distance can tell.
 constexpr int kLongestStep = 16;
+
+// Steps of the mask: along an axis, diagonal, knight's move.
+struct Steps {
+  explicit Steps(int unit)
+      : axis(static_cast<std::uint8_t>(unit)),
+        diagonal(static_cast<std::uint8_t>(std::lround(unit * std::sqrt(2.0)))),
+        knight(static_cast<std::uint8_t>(std::lround(unit * std::sqrt(5.0)))) {}
+  std::uint8_t axis, diagonal, knight;
+};
 
 inline std::uint8_t Plus(std::uint8_t value, std::uint8_t step) {
   return static_cast<std::uint8_t>(std::min<std::uint8_t>(value, 255 - step) + step);
@@ -28,8 +34,11 @@ void Lower(std::uint8_t* __restrict target,
 }
 
 // target = the least of source and its neighbours `step` pixels to the left and right
-void Spread(std::uint8_t* __restrict target, const std::uint8_t* source, int step, int count) {
-  const auto cost = static_cast<std::uint8_t>(step * kAxis);
+void Spread(std::uint8_t* __restrict target,
+            const std::uint8_t* source,
+            int step,
+            std::uint8_t cost,
+            int count) {
   for (int x = 0; x < count; ++x) {
     const std::uint8_t beside = std::min(source[x - step], source[x + step]);
     target[x] = std::min(source[x], Plus(beside, cost));
@@ -53,7 +62,8 @@ class PaddedRow {
 };
 
 // One pass over the rows, each lowered by the two before it.
-void Pass(std::span<std::uint8_t> pixels, int width, int height, bool downwards) {
+void Pass(
+    std::span<std::uint8_t> pixels, int width, int height, const Steps& steps, bool downwards) {
   PaddedRow row(width);
   PaddedRow spread(width);
   PaddedRow last(width);
@@ -62,14 +72,15 @@ void Pass(std::span<std::uint8_t> pixels, int width, int height, bool downwards)
     const int y = downwards ? i : height - 1 - i;
     std::uint8_t* stored = pixels.data() + static_cast<std::size_t>(y) * width;
     row.Load(stored);
-    Lower(row.data(), last.data(), kAxis, width);
+    Lower(row.data(), last.data(), steps.axis, width);
     for (const int side : {-1, 1}) {
-      Lower(row.data(), last.data() + side, kDiagonal, width);
-      Lower(row.data(), last.data() + 2 * side, kKnight, width);
-      Lower(row.data(), before_last.data() + side, kKnight, width);
+      Lower(row.data(), last.data() + side, steps.diagonal, width);
+      Lower(row.data(), last.data() + 2 * side, steps.knight, width);
+      Lower(row.data(), before_last.data() + side, steps.knight, width);
     }
-    for (int step = 1; step <= kLongestStep; step *= 2) {
-      Spread(spread.data(), row.data(), step, width);
+    for (int step = 1; step <= kLongestStep && step * steps.axis < 255; step *= 2) {
+      const auto cost = static_cast<std::uint8_t>(step * steps.axis);
+      Spread(spread.data(), row.data(), step, cost, width);
       row.Swap(spread);
     }
     row.Store(stored);
@@ -80,9 +91,10 @@ void Pass(std::span<std::uint8_t> pixels, int width, int height, bool downwards)
 
 }  // namespace
 
-void TruncatedDistance(std::span<std::uint8_t> pixels, int width, int height) {
-  Pass(pixels, width, height, true);
-  Pass(pixels, width, height, false);
+void TruncatedDistance(std::span<std::uint8_t> pixels, int width, int height, int unit) {
+  const Steps steps(unit);
+  Pass(pixels, width, height, steps, true);
+  Pass(pixels, width, height, steps, false);
 }
 
 }  // namespace ridgeline

@@ -23,7 +23,7 @@ TEST(TruncatedDistance, IsWithinFourPercentOfBruteForce) {
       pixels[static_cast<std::size_t>(y) * width + x] = 0;
       zeros.emplace_back(x, y);
     }
-    TruncatedDistance(pixels, width, height);
+    TruncatedDistance(pixels, width, height, 8);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
         double nearest = 1e9;
@@ -38,7 +38,7 @@ TEST(TruncatedDistance, IsWithinFourPercentOfBruteForce) {
 
 TEST(TruncatedDistance, WithoutZerosAllIsFar) {
   std::vector<std::uint8_t> pixels(40 * 30, 255);
-  TruncatedDistance(pixels, 40, 30);
+  TruncatedDistance(pixels, 40, 30, 8);
   EXPECT_TRUE(std::all_of(pixels.begin(), pixels.end(), [](std::uint8_t p) { return p == 255; }));
 }
 
