@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "localize/pose_scorer.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace ridgeline {
@@ -25,6 +27,21 @@ PoseScorer PoseScorer::With(const Score& score) const {
 PanoramaRange PoseScorer::RangeAround(const ViewAngles& center,
                                       const ViewAngles& half_ranges) const {
   return RangeOf(*camera_, center, half_ranges, surface_step_rad_);
+}
+
+PanoramaRange PoseScorer::RangeOver(std::span<const PoseSpace::Offset> offsets) const {
+  const ViewAngles center = space_->AnglesAt(offsets[offsets.size() / 2]);
+  ViewAngles half_ranges;
+  for (const PoseSpace::Offset& offset : offsets) {
+    const ViewAngles angles = space_->AnglesAt(offset);
+    const auto widen = [](double& half_range, double difference) {
+      half_range = std::max(half_range, std::abs(difference));
+    };
+    widen(half_ranges.heading_deg, HeadingDifferenceDeg(angles.heading_deg, center.heading_deg));
+    widen(half_ranges.pitch_deg, angles.pitch_deg - center.pitch_deg);
+    widen(half_ranges.roll_deg, angles.roll_deg - center.roll_deg);
+  }
+  return RangeAround(center, half_ranges);
 }
 
 Orientations PoseScorer::OrientationsOf(std::span<const PoseSpace::Offset> offsets) const {

@@ -51,6 +51,9 @@ class PoseScorer {
   // Where to look for orientations within half-ranges [deg] of `center`.
   PanoramaRange RangeAround(const ViewAngles& center, const ViewAngles& half_ranges) const;
 
+  // Where to look for the orientations of offsets (at least one).
+  PanoramaRange RangeOver(std::span<const PoseSpace::Offset> offsets) const;
+
   // Orientations of offsets, whose places do not matter.
   Orientations OrientationsOf(std::span<const PoseSpace::Offset> offsets) const;
 

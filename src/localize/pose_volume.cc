@@ -59,11 +59,9 @@ PoseSpace::Offset PoseVolume::OffsetOf(std::size_t index, const ViewAngles& cent
           tilts[tilt].roll_deg - center.roll_deg};
 }
 
-PoseVolume ComputeVolume(const PoseScorer& scorer,
-                         std::span<const Tilt> tilts,
-                         const MapOptions& options,
-                         int threads) {
-  const PoseSpace& space = scorer.space();
+PoseVolume EmptyVolume(const PoseSpace& space,
+                       std::span<const Tilt> tilts,
+                       const MapOptions& options) {
   const PoseSpaceOptions& ranges = space.ranges();
   PoseVolume volume;
   const double spacing_m = SpacingOf(ranges, options);
@@ -72,42 +70,50 @@ PoseVolume ComputeVolume(const PoseScorer& scorer,
   volume.height_m = Offsets(ranges.height_m, spacing_m);
   volume.heading_deg = HeadingOffsets(ranges.heading_deg, options.heading_step_deg);
   volume.tilts.assign(tilts.begin(), tilts.end());
-  const std::size_t positions =
-      volume.east_m.size() * volume.north_m.size() * volume.height_m.size();
-  volume.log_ratios.assign(positions * volume.orientations(), kNone);
+  volume.log_ratios.assign(volume.positions() * volume.orientations(), kNone);
+  return volume;
+}
 
-  // The panorama must hold every tilt.
-  ViewAngles half_ranges{ranges.heading_deg, 0.0, 0.0};
-  for (const Tilt& tilt : tilts) {
-    half_ranges.pitch_deg =
-        std::max(half_ranges.pitch_deg, std::abs(tilt.pitch_deg - space.center_angles().pitch_deg));
-    half_ranges.roll_deg =
-        std::max(half_ranges.roll_deg, std::abs(tilt.roll_deg - space.center_angles().roll_deg));
-  }
-  const PanoramaRange range = scorer.RangeAround(space.center_angles(), half_ranges);
-  std::vector<PoseSpace::Offset> offsets;
-  for (std::size_t i = 0; i < volume.orientations(); ++i) {
-    offsets.push_back(volume.OffsetOf(i, space.center_angles()));
-  }
-  const Orientations orientations = scorer.OrientationsOf(offsets);
-  std::vector<std::uint8_t> admissible(positions, 0);
-  ParallelFor(positions, threads, [&](std::size_t p) {
+void FillVolume(const PoseScorer& scorer,
+                std::span<const std::vector<std::uint32_t>> orientations,
+                int threads,
+                PoseVolume& volume) {
+  const PoseSpace& space = scorer.space();
+  const ViewAngles& center = space.center_angles();
+  std::vector<std::uint8_t> admissible(volume.positions(), 0);
+  ParallelFor(volume.positions(), threads, [&](std::size_t p) {
+    if (orientations[p].empty()) return;
     const std::size_t first = p * volume.orientations();
-    const PoseSpace::Offset offset = volume.OffsetOf(first, space.center_angles());
-    const auto position = space.PositionAt(offset.east_m, offset.north_m, offset.height_m);
+    std::vector<PoseSpace::Offset> offsets;
+    for (const std::uint32_t i : orientations[p]) {
+      offsets.push_back(volume.OffsetOf(first + i, center));
+    }
+    const PoseSpace::Offset& place = offsets.front();
+    const auto position = space.PositionAt(place.east_m, place.north_m, place.height_m);
     if (!position) return;
     admissible[p] = 1;
     PoseScorer::Look look(scorer);
-    look.From(*position, range);
-    const std::span<const double> log_ratios = look.LogRatios(orientations);
-    std::transform(log_ratios.begin(),
-                   log_ratios.end(),
-                   volume.log_ratios.begin() + static_cast<std::ptrdiff_t>(first),
-                   [](double log_ratio) { return static_cast<float>(log_ratio); });
+    look.From(*position, scorer.RangeOver(offsets));
+    const std::span<const double> log_ratios = look.LogRatios(scorer.OrientationsOf(offsets));
+    for (std::size_t k = 0; k < offsets.size(); ++k) {
+      volume.log_ratios[first + orientations[p][k]] = static_cast<float>(log_ratios[k]);
+    }
   });
-  volume.admissible_positions =
-      std::accumulate(admissible.begin(), admissible.end(), std::uint64_t{0});
-  volume.evaluations = volume.admissible_positions * volume.orientations();
+  for (std::size_t p = 0; p < admissible.size(); ++p) {
+    volume.admissible_positions += admissible[p];
+    if (admissible[p] != 0) volume.evaluations += orientations[p].size();
+  }
+}
+
+PoseVolume ComputeVolume(const PoseScorer& scorer,
+                         std::span<const Tilt> tilts,
+                         const MapOptions& options,
+                         int threads) {
+  PoseVolume volume = EmptyVolume(scorer.space(), tilts, options);
+  std::vector<std::uint32_t> all(volume.orientations());
+  std::iota(all.begin(), all.end(), 0u);
+  FillVolume(
+      scorer, std::vector<std::vector<std::uint32_t>>(volume.positions(), all), threads, volume);
   return volume;
 }
 

@@ -28,6 +28,7 @@ struct PoseVolume {
   std::uint64_t admissible_positions = 0;
 
   std::size_t orientations() const { return heading_deg.size() * tilts.size(); }
+  std::size_t positions() const { return east_m.size() * north_m.size() * height_m.size(); }
   PoseSpace::Offset OffsetOf(std::size_t index, const ViewAngles& center) const;
 };
 
@@ -35,7 +36,21 @@ struct PoseVolume {
 // than max_positions.
 double SpacingOf(const PoseSpaceOptions& ranges, const MapOptions& options);
 
-// Visibility is computed once per position, in parallel over positions.
+// The grid with nothing looked at.
+PoseVolume EmptyVolume(const PoseSpace& space,
+                       std::span<const Tilt> tilts,
+                       const MapOptions& options);
+
+// Looks at some of the poses of a volume. Visibility is computed once per position, in parallel
+// over positions.
+// @param orientations  By position (heights, norths, easts): indices of orientations (headings,
+//                      tilts).
+void FillVolume(const PoseScorer& scorer,
+                std::span<const std::vector<std::uint32_t>> orientations,
+                int threads,
+                PoseVolume& volume);
+
+// Looks at all poses.
 PoseVolume ComputeVolume(const PoseScorer& scorer,
                          std::span<const Tilt> tilts,
                          const MapOptions& options,

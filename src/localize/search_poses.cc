@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "localize/coarse_to_fine.h"
 #include "localize/gravity.h"
 #include "localize/refine_pose.h"
 #include "localize/sampled_search.h"
@@ -21,7 +22,7 @@ void RefineWhileHopeful(const std::vector<ScoredPose>& modes,
                         const std::function<void(std::size_t first, std::size_t count)>& refine) {
   constexpr std::size_t kAtATime = 2;  // not the number of threads: results must not depend on it
   constexpr double kGainFactor = 1.5;
-  constexpr double kMargin = 2.0;
+  constexpr double kMargin = 5.0;
   double best = modes.front().log_ratio;
   double gain = 0.0;
   for (std::size_t done = 0; done < count; done += kAtATime) {
@@ -42,26 +43,54 @@ void SortBestFirst(std::vector<ScoredPose>& modes) {
   });
 }
 
+std::vector<Tilt> TiltsOf(const PoseScorer& scorer,
+                          const PictureEvidence& picture,
+                          const MapOptions& options) {
+  constexpr double kTiltSeparationDeg = 1.0;
+  const PoseSpaceOptions& ranges = scorer.space().ranges();
+  return FindTilts(picture.segments(),
+                   picture.camera(),
+                   scorer.space().center_angles(),
+                   ranges.pitch_deg,
+                   ranges.roll_deg,
+                   kTiltSeparationDeg,
+                   options.tilts);
+}
+
+// Between the places of a wide grid the model's edges are off by as much as the model errs. Null:
+// the score as it is.
+std::unique_ptr<Score> TolerantOf(const PoseScorer& scorer, const MapOptions& options) {
+  const double spacing_m = SpacingOf(scorer.space().ranges(), options);
+  return spacing_m > 1.0 ? scorer.score().Tolerant(spacing_m) : nullptr;
+}
+
+// The poses of MapPoses() that can be the best or count beside it.
+PoseVolume MapLikelyPoses(const PoseScorer& scorer,
+                          const PictureEvidence& picture,
+                          const MapOptions& options,
+                          int threads) {
+  const std::unique_ptr<Score> coarse =
+      scorer.score().Tolerant(std::max(1.0, CoarseSpacingOf(scorer.space().ranges(), options)));
+  if (!coarse) return MapPoses(scorer, picture, options, threads);
+  const std::unique_ptr<Score> tolerant = TolerantOf(scorer, options);
+  return ComputeVolumeCoarseToFine(scorer.With(*coarse),
+                                   tolerant ? scorer.With(*tolerant) : scorer,
+                                   TiltsOf(scorer, picture, options),
+                                   options,
+                                   threads);
+}
+
 }  // namespace
 
 PoseVolume MapPoses(const PoseScorer& scorer,
                     const PictureEvidence& picture,
                     const MapOptions& options,
                     int threads) {
-  constexpr double kTiltSeparationDeg = 1.0;
-  const PoseSpaceOptions& ranges = scorer.space().ranges();
-  const std::vector<Tilt> tilts = FindTilts(picture.segments(),
-                                            picture.camera(),
-                                            scorer.space().center_angles(),
-                                            ranges.pitch_deg,
-                                            ranges.roll_deg,
-                                            kTiltSeparationDeg,
-                                            options.tilts);
-  // Between the places of a wide grid the model's edges are off by as much as the model errs.
-  const double spacing_m = SpacingOf(ranges, options);
-  const std::unique_ptr<Score> tolerant =
-      spacing_m > 1.0 ? scorer.score().Tolerant(spacing_m) : nullptr;
-  return ComputeVolume(tolerant ? scorer.With(*tolerant) : scorer, tilts, options, threads);
+  const std::unique_ptr<Score> tolerant = TolerantOf(scorer, options);
+  return ComputeVolume(tolerant ? scorer.With(*tolerant) : scorer,
+                       TiltsOf(scorer, picture, options),
+                       options,
+                       threads);
 }
 
 SearchedPoses SearchPoses(const PoseScorer& scorer,
@@ -71,7 +100,7 @@ SearchedPoses SearchPoses(const PoseScorer& scorer,
                           int threads) {
   SearchedPoses found;
   if (options.method == "map") {
-    found.volume = MapPoses(scorer, picture, options.map, threads);
+    found.volume = MapLikelyPoses(scorer, picture, options.map, threads);
     found.spacing_m = SpacingOf(scorer.space().ranges(), options.map);
     found.evaluations = found.volume->evaluations;
     found.modes = FindModes(*found.volume, scorer.space(), options.map);
@@ -95,7 +124,9 @@ std::uint64_t RefineModes(const PoseScorer& scorer, int threads, SearchedPoses& 
     });
     for (const std::uint64_t n : evaluations) total += n;
   };
-  refine(0, modes.size(), {0.5 * found.spacing_m, 0.5, 0.3});
+  RefineWhileHopeful(modes, modes.size(), [&](std::size_t first, std::size_t count) {
+    refine(first, count, {0.5 * found.spacing_m, 0.5, 0.3});
+  });
   SortBestFirst(modes);
   const std::size_t better = (modes.size() + 2) / 3;
   RefineWhileHopeful(modes, better, [&](std::size_t first, std::size_t count) {
