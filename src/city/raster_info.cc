@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/gdal_handles.h"
 #include "city/city_info.h"
+#include "city/open_raster.h"
 #include "city/raster_values.h"
 
 namespace ridgeline {
@@ -79,16 +80,10 @@ void JudgeTerrain(GDALDataset& dataset, RasterInfo& info) {
 }  // namespace
 
 RasterInfo DescribeRaster(const std::filesystem::path& path) {
-  GDALAllRegister();
   RasterInfo info;
   info.file = path.string();
   const QuietGdal quiet;
-  const GdalDatasetPtr dataset(
-      GDALDataset::Open(info.file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
-  if (dataset == nullptr || dataset->GetRasterCount() < 1) {
-    throw InputError(
-        info.file, "", "a file that GDAL cannot open as a raster", "a picture or a terrain model");
-  }
+  const GdalDatasetPtr dataset = OpenRaster(info.file, "a picture or a terrain model");
   info.driver = dataset->GetDriverName();
   info.columns = dataset->GetRasterXSize();
   info.rows = dataset->GetRasterYSize();

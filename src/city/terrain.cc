@@ -17,6 +17,7 @@
 #include "base/gdal_handles.h"
 #include "city/crs.h"
 #include "city/format/web_file.h"
+#include "city/open_raster.h"
 #include "city/raster_values.h"
 #include "city/units.h"
 
@@ -24,18 +25,6 @@ namespace ridgeline {
 namespace {
 
 constexpr std::int64_t kMaxCells = 100'000'000;  // of the part that is read
-
-GdalDatasetPtr Open(const std::string& file) {
-  GDALAllRegister();
-  GdalDatasetPtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
-  if (dataset == nullptr || dataset->GetRasterCount() < 1) {
-    throw InputError(file,
-                     "",
-                     "a file that GDAL cannot open as a raster",
-                     "a terrain model such as a GeoTIFF or a VRT");
-  }
-  return dataset;
-}
 
 // The file itself, or the copy of one on a web server.
 std::string LocalFile(const std::string& file, std::vector<std::string>& warnings) {
@@ -403,7 +392,8 @@ HeightGrid ReadDtm(const std::filesystem::path& path,
                    std::vector<std::string>& warnings) {
   const QuietGdal quiet;
   const std::string file = path.string();
-  const GdalDatasetPtr dataset = Open(LocalFile(file, warnings));
+  const GdalDatasetPtr dataset =
+      OpenRaster(LocalFile(file, warnings), "a terrain model such as a GeoTIFF or a VRT");
   CheckIsTerrain(*dataset, file);
   const RasterSystem system = SystemOf(*dataset, model.crs, file, warnings);
   GeoTransform g;

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <ogr_spatialref.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <functional>
@@ -317,6 +318,15 @@ TEST(RasterKind, PicturesAreNoTerrain) {
   Spec several;
   several.bands = 4;
   EXPECT_THAT(ErrorOf(Write(folder, several)), HasSubstr("a raster of 4 bands"));
+}
+
+TEST(RasterKind, PipesAreNotWaitedFor) {
+  const TestFolder folder;
+  const std::filesystem::path pipe = folder.path() / "dtm.tif";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THAT(ErrorOf(pipe), HasSubstr("dtm.tif: got a pipe or a device"));
+  EXPECT_THROW(DescribeRaster(pipe), InputError);
+  EXPECT_THROW(DescribeRaster("/dev/zero"), InputError);
 }
 
 TEST(RasterKind, InfoSaysSo) {
