@@ -12,7 +12,7 @@
 #include <string>
 
 #include "city/city_text.h"
-#include "city/format/read_source.h"
+#include "city/format/formats.h"
 #include "city/read_city.h"
 
 namespace ridgeline {
@@ -49,8 +49,8 @@ void SetBytes(benchmark::State& state) {
 }
 
 // Parsing alone, links followed.
-void BM_ReadSource(benchmark::State& state) {
-  for (auto _ : state) benchmark::DoNotOptimize(ReadSource(ModelFile()));
+void BM_ReadModelFile(benchmark::State& state) {
+  for (auto _ : state) benchmark::DoNotOptimize(ReadModelFile(ModelFile()));
   SetBytes(state);
 }
 BENCHMARK(BM_ReadSource)->Unit(benchmark::kMillisecond);

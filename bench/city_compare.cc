@@ -21,7 +21,7 @@
 #include <string>
 
 #include "city/city_info.h"
-#include "city/format/read_source.h"
+#include "city/format/formats.h"
 #include "city/xml_count.h"
 
 namespace {
@@ -115,7 +115,7 @@ void Row(const std::string& file) {
   const ridgeline::testing::XmlCount expected = ridgeline::testing::CountXml(file);
   const Peer peer = ReadWithPeer(file);
   const auto start = std::chrono::steady_clock::now();
-  ridgeline::ReadSource(file);
+  ridgeline::ReadModelFile(file);
   const double parse_seconds = Seconds(start);
   const CityInfo info = ridgeline::DescribeCity({file}, {});
   std::size_t surfaces = 0;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "city/city_sources.h"
 #include "city/crs.h"
 #include "city/mesh/build_model.h"
 #include "city/mesh/shell_check.h"
@@ -21,6 +22,7 @@ ModelFileInfo DescribeSource(const SourceModel& source) {
   if (error) info.bytes = 0;
   info.srs_names = source.srs_names;
   info.buildings = source.buildings.size();
+  info.polygons = source.polygons_of_lod;
   for (const SourceBuilding& building : source.buildings) {
     std::set<int> lods;
     for (const SourceMember& member : building.members) {
@@ -72,14 +74,25 @@ void DescribeMesh(const CityModel& model, CityInfo& info) {
 
 CityInfo DescribeCity(const std::vector<std::filesystem::path>& paths, const CityOptions& options) {
   CityInfo info;
-  ProjectedSources projected = ReadProjectedSources(paths, options);
-  for (const SourceModel& source : projected.sources) info.files.push_back(DescribeSource(source));
+  CitySources city = ReadCitySources(paths, options);
+  ProjectedSources& projected = city.projected;
+  for (const SourceModel& source : projected.sources) {
+    info.files.push_back(DescribeSource(source));
+    for (const auto& [lod, count] : source.polygons_of_lod) {
+      if (count.met == count.read + count.named) continue;
+      info.warnings.push_back(
+          source.file + ": LoD" + std::to_string(lod) + " has " + std::to_string(count.met) +
+          " polygons, but " + std::to_string(count.read) + " were read and " +
+          std::to_string(count.named) + " named as passed over (a fault of ridgeline)");
+    }
+  }
   BuildStatistics statistics;
   const CityModel model = BuildModel(projected.sources, projected.crs, options, &statistics);
   info.crs = model.crs;
   info.classified_by_normal = statistics.classified_by_normal;
   info.dropped = std::move(statistics.tally);
-  info.warnings = model.warnings;
+  info.warnings.insert(info.warnings.end(), city.warnings.begin(), city.warnings.end());
+  info.warnings.insert(info.warnings.end(), model.warnings.begin(), model.warnings.end());
   DescribeMesh(model, info);
   for (const std::uint32_t b : FindOpenShells(model)) {
     info.open_shells.push_back(model.buildings[b].id);

@@ -12,7 +12,8 @@
 #include <vector>
 
 #include "city/city_model.h"
-#include "city/read_city.h"
+#include "city/city_options.h"
+#include "city/source_model.h"
 #include "city/tally.h"
 
 namespace ridgeline {
@@ -26,6 +27,7 @@ struct ModelFileInfo {
   std::size_t buildings = 0;           // buildings and parts
   std::map<int, std::size_t> buildings_of_lod;
   std::map<int, std::size_t> polygons_of_lod;
+  std::map<int, PolygonCount> polygons;  // of each level: in the file, read, passed over
 };
 
 // What is in model files and what ridgeline makes of it.
@@ -70,9 +72,12 @@ struct RasterInfo {
   Eigen::Vector2d spacing = Eigen::Vector2d::Zero();  // of the cells, east and north
   Eigen::Vector2d lowest = Eigen::Vector2d::Zero();   // west, south of the outer cells' borders
   Eigen::Vector2d highest = Eigen::Vector2d::Zero();
-  std::optional<double> min_value;  // of the first band
+  std::string unit;                 // of the first band; empty: not said
+  std::optional<double> min_value;  // of the first band, in its unit
   std::optional<double> max_value;
-  double known_share = 0.0;                 // of the cells [0, 1]
+  double known_share = 0.0;  // of the cells [0, 1]
+  int row_step = 1;          // every so manieth row was read for these
+  std::vector<std::string> warnings;
   std::map<std::string, std::string> exif;  // of pictures, without the prefix "EXIF_"
   bool has_xmp = false;
 };

@@ -5,19 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/error.h"
+#include "base/gdal_handles.h"
 #include "city/city_info.h"
+#include "city/open_raster.h"
+#include "city/raster_values.h"
 
 namespace ridgeline {
 namespace {
-
-struct DatasetCloser {
-  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
-};
 
 std::string CrsText(const OGRSpatialReference* srs) {
   if (srs == nullptr || srs->IsEmpty()) return {};
@@ -41,52 +40,50 @@ void ReadMetadata(GDALDataset& dataset, RasterInfo& info) {
   info.has_xmp = dataset.GetMetadata("xml:XMP") != nullptr;
 }
 
+// Of large rasters every so manieth row.
 void ReadValues(GDALDataset& dataset, RasterInfo& info) {
-  GDALRasterBand& band = *dataset.GetRasterBand(1);
-  int has_nodata = 0;
-  const double nodata = band.GetNoDataValue(&has_nodata);
+  constexpr double kMostCells = 1e8;
+  const double cells = static_cast<double>(info.columns) * info.rows;
+  info.row_step = static_cast<int>(std::ceil(cells / kMostCells));
+  RasterValues values(dataset, info.file, 1.0);
   std::vector<double> row(static_cast<std::size_t>(info.columns));
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   std::size_t known = 0;
-  for (int r = 0; r < info.rows; ++r) {
-    const CPLErr error = band.RasterIO(
-        GF_Read, 0, r, info.columns, 1, row.data(), info.columns, 1, GDT_Float64, 0, 0, nullptr);
-    if (error != CE_None) {
-      throw InputError(info.file,
-                       "row " + std::to_string(r),
-                       "cells that cannot be read",
-                       "a whole raster (was the download cut off?)");
-    }
+  std::size_t read = 0;
+  for (int r = 0; r < info.rows; r += info.row_step) {
+    values.ReadRow(0, r, row);
+    read += row.size();
     for (const double value : row) {
-      if (!std::isfinite(value) || (has_nodata != 0 && value == nodata)) continue;
+      if (std::isnan(value)) continue;
       low = std::min(low, value);
       high = std::max(high, value);
       ++known;
     }
   }
-  const double scale = band.GetScale();
-  const double offset = band.GetOffset();
-  info.known_share = static_cast<double>(known) / (static_cast<double>(info.columns) * info.rows);
+  info.warnings = values.Warnings();
+  info.known_share = static_cast<double>(known) / static_cast<double>(read);
   if (known == 0) return;
-  info.min_value = low * scale + offset;
-  info.max_value = high * scale + offset;
+  info.min_value = low;
+  info.max_value = high;
+}
+
+// What ReadDtm would say of it.
+void JudgeTerrain(GDALDataset& dataset, RasterInfo& info) {
+  try {
+    CheckIsTerrain(dataset, info.file);
+  } catch (const InputError& e) {
+    info.warnings.push_back(std::string("no terrain model: ") + e.what());
+  }
 }
 
 }  // namespace
 
 RasterInfo DescribeRaster(const std::filesystem::path& path) {
-  GDALAllRegister();
   RasterInfo info;
   info.file = path.string();
-  CPLPushErrorHandler(CPLQuietErrorHandler);
-  const std::unique_ptr<GDALDataset, DatasetCloser> dataset(
-      GDALDataset::Open(info.file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
-  CPLPopErrorHandler();
-  if (dataset == nullptr || dataset->GetRasterCount() < 1) {
-    throw InputError(
-        info.file, "", "a file that GDAL cannot open as a raster", "a picture or a terrain model");
-  }
+  const QuietGdal quiet;
+  const GdalDatasetPtr dataset = OpenRaster(info.file, "a picture or a terrain model");
   info.driver = dataset->GetDriverName();
   info.columns = dataset->GetRasterXSize();
   info.rows = dataset->GetRasterYSize();
@@ -108,7 +105,9 @@ RasterInfo DescribeRaster(const std::filesystem::path& path) {
       info.highest = info.highest.cwiseMax(corner(column, row));
     }
   }
+  info.unit = dataset->GetRasterBand(1)->GetUnitType();
   ReadValues(*dataset, info);
+  JudgeTerrain(*dataset, info);
   return info;
 }
 

@@ -3,7 +3,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -42,15 +44,25 @@ struct SourceBuilding {
   std::vector<SourceMember> members;
 };
 
+// What became of the polygons of one level of detail: met = read + named.
+struct PolygonCount {
+  std::size_t met = 0;    // in the file, as it writes them
+  std::size_t read = 0;   // of these, members of a building
+  std::size_t named = 0;  // of these, passed over for a reason that the tally names
+};
+
 struct SourceModel {
   std::string file;
   std::string format;                  // e.g. "CityGML 2.0"
   std::vector<std::string> srs_names;  // as written, distinct, in order of appearance
+  // Units of the axes as written (uomLabels of CityGML), e.g. "ft"; empty: not said.
+  std::vector<std::string> axis_units;
   std::vector<Eigen::Vector3d> points;
   std::vector<SourceRing> rings;
   std::vector<SourcePolygon> polygons;
   std::vector<SourceBuilding> buildings;
   Tally tally;
+  std::map<int, PolygonCount> polygons_of_lod;  // -1: of no level
   // East and north of everything in a store of which a part was read; else empty.
   Eigen::AlignedBox2d whole_extent;
 };

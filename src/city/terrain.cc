@@ -5,46 +5,26 @@
 #include <gdal_utils.h>
 #include <ogr_spatialref.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "base/error.h"
+#include "base/gdal_handles.h"
 #include "city/crs.h"
 #include "city/format/web_file.h"
+#include "city/open_raster.h"
+#include "city/raster_values.h"
+#include "city/units.h"
 
 namespace ridgeline {
 namespace {
 
-// Heights outside this range are fill values that the raster does not declare.
-constexpr double kLowestHeight = -1000.0;
-constexpr double kHighestHeight = 9000.0;
-
-struct DatasetCloser {
-  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
-};
-using DatasetPtr = std::unique_ptr<GDALDataset, DatasetCloser>;
-
-// GDAL's messages are not for the user: ours say which file and what to do.
-class QuietGdal {
- public:
-  QuietGdal() { CPLPushErrorHandler(CPLQuietErrorHandler); }
-  ~QuietGdal() { CPLPopErrorHandler(); }
-  QuietGdal(const QuietGdal&) = delete;
-  QuietGdal& operator=(const QuietGdal&) = delete;
-};
-
-DatasetPtr Open(const std::string& file) {
-  GDALAllRegister();
-  DatasetPtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
-  if (dataset == nullptr || dataset->GetRasterCount() < 1) {
-    throw InputError(file,
-                     "",
-                     "a file that GDAL cannot open as a raster",
-                     "a terrain model such as a GeoTIFF or a VRT");
-  }
-  return dataset;
-}
+constexpr std::int64_t kMaxCells = 100'000'000;  // of the part that is read
 
 // The file itself, or the copy of one on a web server.
 std::string LocalFile(const std::string& file, std::vector<std::string>& warnings) {
@@ -61,24 +41,72 @@ std::string NameOf(const OGRSpatialReference& srs) {
   return srs.GetName() != nullptr ? srs.GetName() : "an unnamed system";
 }
 
-void CheckCrs(GDALDataset& dataset,
-              const Crs& model_crs,
-              const std::string& file,
-              std::vector<std::string>& warnings) {
+// Where a raster's cells are in relation to the model.
+struct RasterSystem {
+  bool moves = false;  // into the model's system: it is in feet, which models are moved from too
+  OGRSpatialReference horizontal;
+  double metres_per_unit = 1.0;
+  LengthUnit height_unit;
+};
+
+// The unit of the heights: the band's own, else the vertical system's, else the horizontal one's.
+LengthUnit UnitOfHeights(GDALDataset& dataset,
+                         const OGRSpatialReference* system,
+                         const std::string& file,
+                         std::vector<std::string>& warnings) {
+  LengthUnit unit;
+  std::string source;
+  const std::string of_band = dataset.GetRasterBand(1)->GetUnitType();
+  if (!of_band.empty() && of_band != "unknown") {
+    const std::optional<double> metres = MetresPerUnit(of_band);
+    if (!metres) {
+      throw InputError(
+          file, "unit", "\"" + of_band + "\"", "heights in a unit of length such as m or ft");
+    }
+    unit = {*metres, of_band};
+    source = "the band's unit";
+  } else if (system != nullptr) {
+    const char* name = nullptr;
+    if (system->IsCompound() == TRUE) {
+      unit.metres = system->GetTargetLinearUnits("COMPD_CS|VERT_CS", &name);
+      source = "its vertical system";
+    } else if (system->IsProjected() == TRUE) {
+      unit.metres = system->GetLinearUnits(&name);
+      source = "its horizontal system, since it names no vertical one";
+    }
+    if (std::abs(unit.metres - 1.0) < 1e-12) unit.metres = 1.0;
+    if (name != nullptr) unit.name = name;
+  }
+  if (!unit.IsMetre()) {
+    warnings.push_back(file + ": heights in the unit " + unit.name + " (" + source +
+                       "), converted to metres");
+  }
+  return unit;
+}
+
+RasterSystem SystemOf(GDALDataset& dataset,
+                      const Crs& model_crs,
+                      const std::string& file,
+                      std::vector<std::string>& warnings) {
   const OGRSpatialReference* const found = dataset.GetSpatialRef();
+  RasterSystem system;
   if (found == nullptr || found->IsEmpty() || found->IsLocal()) {
     warnings.push_back(file + ": the raster names no reference system; taken to be in " +
                        CrsName(model_crs) + ", the model's");
-    return;
+    system.height_unit = UnitOfHeights(dataset, nullptr, file, warnings);
+    return system;
   }
-  if (model_crs.horizontal_epsg == 0) return;
-  OGRSpatialReference horizontal(*found);
+  system.height_unit = UnitOfHeights(dataset, found, file, warnings);
+  if (model_crs.horizontal_epsg == 0) return system;
   int vertical = 0;
+  OGRSpatialReference& horizontal = system.horizontal;
+  horizontal = *found;
   if (horizontal.IsCompound()) {
     const char* const code = horizontal.GetAuthorityCode("COMPD_CS|VERT_CS");
-    vertical = code != nullptr ? std::atoi(code) : 0;
+    vertical = code != nullptr ? VerticalEpsgInMetres(std::atoi(code)) : 0;
     horizontal.StripVertical();
   }
+  horizontal.DemoteTo2D(nullptr);
   OGRSpatialReference expected;
   expected.importFromEPSG(model_crs.horizontal_epsg);
   constexpr const char* kCriteria[] = {"CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS",
@@ -86,7 +114,12 @@ void CheckCrs(GDALDataset& dataset,
                                        nullptr};
   const char* const code = horizontal.GetAuthorityCode(nullptr);
   const bool same_code = code != nullptr && std::atoi(code) == model_crs.horizontal_epsg;
-  if (!same_code && horizontal.IsSame(&expected, kCriteria) != TRUE) {
+  const bool same = same_code || horizontal.IsSame(&expected, kCriteria) == TRUE;
+  if (!same && horizontal.IsProjected() == TRUE) {
+    system.metres_per_unit = horizontal.GetLinearUnits(nullptr);
+    system.moves = std::abs(system.metres_per_unit - 1.0) > 1e-12;
+  }
+  if (!same && !system.moves) {
     throw InputError(
         file,
         "CRS",
@@ -98,6 +131,7 @@ void CheckCrs(GDALDataset& dataset,
                        ", the model's in EPSG:" + std::to_string(model_crs.vertical_epsg) +
                        "; they are used as they are");
   }
+  return system;
 }
 
 struct GeoTransform {
@@ -109,41 +143,6 @@ bool IsSquareNorthUp(const GeoTransform& g) {
   constexpr double kRelative = 1e-6;
   return g.c[1] > 0.0 && g.c[5] < 0.0 && std::abs(g.c[1] + g.c[5]) < kRelative * g.c[1] &&
          std::abs(g.c[2]) < kRelative * g.c[1] && std::abs(g.c[4]) < kRelative * g.c[1];
-}
-
-// The raster on square cells, north up.
-DatasetPtr Straighten(DatasetPtr dataset, const std::string& file) {
-  GeoTransform g;
-  if (dataset->GetGeoTransform(g.c) != CE_None) {
-    throw InputError(file,
-                     "geotransform",
-                     "a raster that does not say where it lies",
-                     "a georeferenced raster (or a world file beside it)");
-  }
-  if (IsSquareNorthUp(g)) return dataset;
-  const double cell_area = std::abs(g.c[1] * g.c[5] - g.c[2] * g.c[4]);
-  const std::string spacing = std::to_string(std::sqrt(cell_area));
-  const char* arguments[] = {"-of",
-                             "MEM",
-                             "-r",
-                             "bilinear",
-                             "-ot",
-                             "Float64",
-                             "-dstnodata",
-                             "nan",
-                             "-tr",
-                             spacing.c_str(),
-                             spacing.c_str(),
-                             nullptr};
-  GDALWarpAppOptions* const options = GDALWarpAppOptionsNew(const_cast<char**>(arguments), nullptr);
-  GDALDatasetH source = dataset.get();
-  DatasetPtr warped(GDALDataset::FromHandle(GDALWarp("", nullptr, 1, &source, options, nullptr)));
-  GDALWarpAppOptionsFree(options);
-  if (warped == nullptr) {
-    throw InputError(
-        file, "geotransform", "a grid that cannot be turned north up", "square cells, north up");
-  }
-  return warped;
 }
 
 struct Window {
@@ -167,25 +166,121 @@ Window WindowOf(const GeoTransform& g,
   return {first_column, first_row, end_column - first_column, end_row - first_row};
 }
 
-float LocalHeight(double value, bool has_nodata, double nodata, double origin_height) {
-  const bool unknown = !std::isfinite(value) || (has_nodata && value == nodata) ||
-                       value < kLowestHeight || value > kHighestHeight;
-  return unknown ? std::numeric_limits<float>::quiet_NaN()
-                 : static_cast<float>(value - origin_height);
+// The part of any grid that a box in its own system falls on, and two cells more on each side.
+Window WindowAround(const GeoTransform& g,
+                    int width,
+                    int height,
+                    const std::vector<Eigen::Vector2d>& places) {
+  GeoTransform inverse;
+  if (GDALInvGeoTransform(const_cast<double*>(g.c), inverse.c) == FALSE) return {};
+  Eigen::AlignedBox2d cells;
+  for (const Eigen::Vector2d& p : places) {
+    cells.extend(Eigen::Vector2d(inverse.c[0] + p.x() * inverse.c[1] + p.y() * inverse.c[2],
+                                 inverse.c[3] + p.x() * inverse.c[4] + p.y() * inverse.c[5]));
+  }
+  const auto clamp = [](double value, int limit) {
+    return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(limit)));
+  };
+  constexpr double kMore = 2.0;
+  const int column = clamp(std::floor(cells.min().x()) - kMore, width);
+  const int row = clamp(std::floor(cells.min().y()) - kMore, height);
+  return {column,
+          row,
+          clamp(std::ceil(cells.max().x()) + kMore, width) - column,
+          clamp(std::ceil(cells.max().y()) + kMore, height) - row};
 }
 
-HeightGrid ReadWindow(GDALDataset& dataset,
+void CheckSize(const Window& window, const std::string& file) {
+  const std::int64_t cells = std::int64_t{window.columns} * window.rows;
+  if (cells <= kMaxCells) return;
+  throw InputError(
+      file,
+      "limit",
+      std::to_string(window.columns) + " x " + std::to_string(window.rows) + " cells to be read",
+      "at most " + std::to_string(kMaxCells) + " (a coarser raster, or a smaller place)");
+}
+
+// The window as a grid of heights [m] in memory, what is missing NaN.
+GdalDatasetPtr CleanCopy(const GeoTransform& g,
+                         const Window& window,
+                         const OGRSpatialReference* system,
+                         RasterValues& values,
+                         const std::string& file) {
+  CheckSize(window, file);
+  GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("MEM");
+  GdalDatasetPtr copy(driver->Create("", window.columns, window.rows, 1, GDT_Float64, nullptr));
+  if (copy == nullptr)
+    throw InputError(file, "", "a grid that does not fit into memory", "a smaller one");
+  double corner[6] = {g.c[0] + window.column * g.c[1] + window.row * g.c[2],
+                      g.c[1],
+                      g.c[2],
+                      g.c[3] + window.column * g.c[4] + window.row * g.c[5],
+                      g.c[4],
+                      g.c[5]};
+  copy->SetGeoTransform(corner);
+  if (system != nullptr) copy->SetSpatialRef(system);
+  GDALRasterBand& band = *copy->GetRasterBand(1);
+  band.SetNoDataValue(std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> row(static_cast<std::size_t>(window.columns));
+  for (int r = 0; r < window.rows; ++r) {
+    values.ReadRow(window.column, window.row + r, row);
+    if (band.RasterIO(GF_Write,
+                      0,
+                      r,
+                      window.columns,
+                      1,
+                      row.data(),
+                      window.columns,
+                      1,
+                      GDT_Float64,
+                      0,
+                      0,
+                      nullptr) != CE_None) {
+      throw InputError(file, "", CPLGetLastErrorMsg(), "a grid that can be copied");
+    }
+  }
+  return copy;
+}
+
+// A clean copy on square cells, north up, in the model's system.
+GdalDatasetPtr Resampled(GDALDataset& copy,
+                         const GeoTransform& g,
+                         const RasterSystem& system,
+                         const Crs& model_crs,
+                         const std::string& file) {
+  const double cell_area = std::abs(g.c[1] * g.c[5] - g.c[2] * g.c[4]);
+  std::vector<std::string> arguments = {"-of", "MEM", "-r", "bilinear", "-ot", "Float64"};
+  for (const char* argument : {"-srcnodata", "nan", "-dstnodata", "nan", "-tr"}) {
+    arguments.emplace_back(argument);
+  }
+  const std::string spacing = std::to_string(std::sqrt(cell_area) * system.metres_per_unit);
+  arguments.insert(arguments.end(), {spacing, spacing});
+  if (system.moves) {
+    arguments.insert(arguments.end(),
+                     {"-t_srs", "EPSG:" + std::to_string(model_crs.horizontal_epsg), "-novshift"});
+  }
+  std::vector<char*> pointers;
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  GDALWarpAppOptions* const options = GDALWarpAppOptionsNew(pointers.data(), nullptr);
+  GDALDatasetH source = &copy;
+  GdalDatasetPtr warped(
+      GDALDataset::FromHandle(GDALWarp("", nullptr, 1, &source, options, nullptr)));
+  GDALWarpAppOptionsFree(options);
+  if (warped == nullptr) {
+    throw InputError(
+        file, "geotransform", "a grid that cannot be turned north up", "square cells, north up");
+  }
+  return warped;
+}
+
+HeightGrid ReadWindow(RasterValues& values,
                       const GeoTransform& g,
                       const Window& window,
                       const Eigen::Vector3d& origin,
                       const std::string& file) {
-  GDALRasterBand& band = *dataset.GetRasterBand(1);
+  CheckSize(window, file);
   std::vector<double> row(static_cast<std::size_t>(window.columns));
-  int has_nodata = 0;
-  const double nodata = band.GetNoDataValue(&has_nodata);
-  const double scale = band.GetScale();
-  const double offset = band.GetOffset();
-
   HeightGrid grid;
   grid.spacing_m = g.c[1];
   grid.columns = window.columns;
@@ -196,31 +291,64 @@ HeightGrid ReadWindow(GDALDataset& dataset,
       origin.head<2>();
   grid.heights.reserve(row.size() * static_cast<std::size_t>(window.rows));
   for (int r = 0; r < window.rows; ++r) {
-    const CPLErr error = band.RasterIO(GF_Read,
-                                       window.column,
-                                       last_row - r,
-                                       window.columns,
-                                       1,
-                                       row.data(),
-                                       window.columns,
-                                       1,
-                                       GDT_Float64,
-                                       0,
-                                       0,
-                                       nullptr);
-    if (error != CE_None) {
-      throw InputError(file,
-                       "row " + std::to_string(last_row - r),
-                       "cells that cannot be read",
-                       "a whole raster (was the download cut off?)");
-    }
-    for (const double value : row) {
-      const bool is_nodata = has_nodata != 0 && value == nodata;
-      grid.heights.push_back(
-          LocalHeight(is_nodata ? value : value * scale + offset, is_nodata, nodata, origin.z()));
-    }
+    values.ReadRow(window.column, last_row - r, row);
+    for (const double height : row) grid.heights.push_back(static_cast<float>(height - origin.z()));
   }
   return grid;
+}
+
+std::string BoxText(const Eigen::AlignedBox2d& box) {
+  const auto number = [](double v) {
+    return std::to_string(static_cast<long long>(std::floor(v)));
+  };
+  return number(box.min().x()) + ".." + number(box.max().x()) + " E, " + number(box.min().y()) +
+         ".." + number(box.max().y()) + " N";
+}
+
+// Border of the whole raster in its own system.
+Eigen::AlignedBox2d ExtentOf(GDALDataset& dataset, const GeoTransform& g) {
+  Eigen::AlignedBox2d extent;
+  for (const int column : {0, dataset.GetRasterXSize()}) {
+    for (const int row : {0, dataset.GetRasterYSize()}) {
+      extent.extend(Eigen::Vector2d(g.c[0] + column * g.c[1] + row * g.c[2],
+                                    g.c[3] + column * g.c[4] + row * g.c[5]));
+    }
+  }
+  return extent;
+}
+
+// Places all over a box of the model's system, in the raster's.
+std::vector<Eigen::Vector2d> PlacesOf(const Eigen::AlignedBox2d& box,
+                                      const RasterSystem& system,
+                                      const Crs& model_crs,
+                                      const std::string& file) {
+  constexpr int kSteps = 8;
+  std::vector<double> x;
+  std::vector<double> y;
+  for (int i = 0; i <= kSteps; ++i) {
+    for (int k = 0; k <= kSteps; ++k) {
+      x.push_back(box.min().x() + box.sizes().x() * i / kSteps);
+      y.push_back(box.min().y() + box.sizes().y() * k / kSteps);
+    }
+  }
+  if (system.moves) {
+    OGRSpatialReference from;
+    from.importFromEPSG(model_crs.horizontal_epsg);
+    from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    OGRSpatialReference to(system.horizontal);
+    to.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    const std::unique_ptr<OGRCoordinateTransformation> move(
+        OGRCreateCoordinateTransformation(&from, &to));
+    if (move == nullptr || move->Transform(x.size(), x.data(), y.data()) != TRUE) {
+      throw InputError(file,
+                       "CRS",
+                       NameOf(system.horizontal) + ", which does not reach this place",
+                       CrsName({model_crs.horizontal_epsg, 0}) + " (the model's)");
+    }
+  }
+  std::vector<Eigen::Vector2d> places;
+  for (std::size_t i = 0; i < x.size(); ++i) places.emplace_back(x[i], y[i]);
+  return places;
 }
 
 }  // namespace
@@ -264,42 +392,50 @@ HeightGrid ReadDtm(const std::filesystem::path& path,
                    std::vector<std::string>& warnings) {
   const QuietGdal quiet;
   const std::string file = path.string();
-  DatasetPtr dataset = Open(LocalFile(file, warnings));
-  CheckCrs(*dataset, model.crs, file, warnings);
-  dataset = Straighten(std::move(dataset), file);
+  const GdalDatasetPtr dataset =
+      OpenRaster(LocalFile(file, warnings), "a terrain model such as a GeoTIFF or a VRT");
+  CheckIsTerrain(*dataset, file);
+  const RasterSystem system = SystemOf(*dataset, model.crs, file, warnings);
   GeoTransform g;
-  dataset->GetGeoTransform(g.c);
+  if (dataset->GetGeoTransform(g.c) != CE_None) {
+    throw InputError(file,
+                     "geotransform",
+                     "a raster that does not say where it lies",
+                     "a georeferenced raster (or a world file beside it)");
+  }
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(margin_m);
   const Eigen::Vector2d origin = model.origin_in_world.head<2>();
+  const Eigen::AlignedBox2d wanted(lower + origin - margin, upper + origin + margin);
+  const std::vector<Eigen::Vector2d> places = PlacesOf(wanted, system, model.crs, file);
+  Eigen::AlignedBox2d wanted_here;
+  for (const Eigen::Vector2d& place : places) wanted_here.extend(place);
+  const Eigen::AlignedBox2d extent = ExtentOf(*dataset, g);
+  const auto fail_elsewhere = [&] {
+    throw InputError(file, "extent", BoxText(extent), "terrain at " + BoxText(wanted_here));
+  };
+  if (!extent.intersects(wanted_here)) fail_elsewhere();
   const int width = dataset->GetRasterXSize();
   const int height = dataset->GetRasterYSize();
-  const Eigen::Vector2d low_world = lower + origin - margin;
-  const Eigen::Vector2d high_world = upper + origin + margin;
-  const Eigen::Vector2d raster_low(g.c[0], g.c[3] + height * g.c[5]);
-  const Eigen::Vector2d raster_high(g.c[0] + width * g.c[1], g.c[3]);
-  const auto box_text = [](const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
-    const auto number = [](double v) {
-      return std::to_string(static_cast<long long>(std::floor(v)));
-    };
-    return number(low.x()) + ".." + number(high.x()) + " E, " + number(low.y()) + ".." +
-           number(high.y()) + " N";
-  };
-  const bool touches = (raster_low.array() <= high_world.array()).all() &&
-                       (raster_high.array() >= low_world.array()).all();
-  if (!touches) {
-    throw InputError(file,
-                     "extent",
-                     box_text(raster_low, raster_high),
-                     "terrain at " + box_text(low_world, high_world));
+  RasterValues values(*dataset, file, system.height_unit.metres);
+  HeightGrid grid;
+  if (IsSquareNorthUp(g) && !system.moves) {
+    const Window window = WindowOf(g, width, height, wanted.min(), wanted.max());
+    if (window.columns <= 0 || window.rows <= 0) fail_elsewhere();
+    grid = ReadWindow(values, g, window, model.origin_in_world, file);
+  } else {
+    const Window window = WindowAround(g, width, height, places);
+    if (window.columns <= 0 || window.rows <= 0) fail_elsewhere();
+    const OGRSpatialReference* const reference =
+        system.moves ? &system.horizontal : dataset->GetSpatialRef();
+    const GdalDatasetPtr copy = CleanCopy(g, window, reference, values, file);
+    const GdalDatasetPtr straight = Resampled(*copy, g, system, model.crs, file);
+    straight->GetGeoTransform(g.c);
+    RasterValues heights(*straight, file, 1.0);
+    const Window whole{0, 0, straight->GetRasterXSize(), straight->GetRasterYSize()};
+    grid = ReadWindow(heights, g, whole, model.origin_in_world, file);
   }
-  const Window window = WindowOf(g, width, height, low_world, high_world);
-  if (window.columns <= 0 || window.rows <= 0) {
-    throw InputError(file,
-                     "extent",
-                     box_text(raster_low, raster_high),
-                     "terrain at " + box_text(low_world, high_world));
-  }
-  return ReadWindow(*dataset, g, window, model.origin_in_world, file);
+  for (std::string& warning : values.Warnings()) warnings.push_back(std::move(warning));
+  return grid;
 }
 
 }  // namespace ridgeline

@@ -43,9 +43,11 @@ class Footprints {
 };
 
 // Reads any GDAL raster (VRT for tiles) as a height grid in the frame of `model`. Only the part
-// within `margin_m` of the box [lower, upper] (local) is read. Throws InputError for an unreadable
-// file, a CRS other than the model's, or a raster that does not touch the box. A raster without a
-// CRS is taken to be in the model's, with a warning appended to `warnings`.
+// within `margin_m` of the box [lower, upper] (local) is read. Heights in other units (the band's,
+// the vertical system's) become metres, and a raster in a system of feet is moved to the model's.
+// Throws InputError for an unreadable file, a picture or anything else that is no terrain, a metric
+// CRS other than the model's, or a raster that does not touch the box. A raster without a CRS is
+// taken to be in the model's. What was converted, supposed or undeclared is appended to `warnings`.
 HeightGrid ReadDtm(const std::filesystem::path& path,
                    const CityModel& model,
                    const Eigen::Vector2d& lower,

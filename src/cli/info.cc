@@ -13,7 +13,8 @@
 #include "base/error.h"
 #include "city/city_info.h"
 #include "city/crs.h"
-#include "city/format/read_source.h"
+#include "city/format/formats.h"
+#include "city/store/city_store.h"
 #include "cli/command.h"
 
 namespace ridgeline {
@@ -42,6 +43,12 @@ Json CityJsonOf(const CityInfo& info) {
                   {"bytes", file.bytes},
                   {"crs_as_written", file.srs_names},
                   {"buildings_and_parts", file.buildings}};
+    for (const auto& [lod, count] : file.polygons) {
+      entry["polygons_in_file"].push_back({{"lod", lod},
+                                           {"in_file", count.met},
+                                           {"read", count.read},
+                                           {"passed_over", count.named}});
+    }
     for (const auto& [lod, count] : file.buildings_of_lod) {
       entry["lods"].push_back({{"lod", lod},
                                {"buildings_and_parts", count},
@@ -93,6 +100,9 @@ Json RasterJsonOf(const RasterInfo& info) {
     if (info.min_value)
       json["heights"] = {{"lowest", *info.min_value}, {"highest", *info.max_value}};
     json["known_share"] = RoundedTo(info.known_share, 6);
+    json["unit"] = info.unit.empty() ? Json(nullptr) : Json(info.unit);
+    if (info.row_step > 1) json["values_of_every_nth_row"] = info.row_step;
+    json["warnings"] = info.warnings;
   }
   if (!info.exif.empty()) json["exif"] = info.exif;
   if (!info.georeferenced) json["xmp"] = info.has_xmp;
@@ -105,7 +115,7 @@ std::string Fixed(double value, int decimals) {
   return text.data();
 }
 
-std::string Range(double low, double high, const char* unit) {
+std::string Range(double low, double high, const std::string& unit) {
   return Fixed(low, 1) + " .. " + Fixed(high, 1) + unit;
 }
 
@@ -132,6 +142,12 @@ void PrintCity(const CityInfo& info, const Context& context) {
       line("LoD" + std::to_string(lod),
            std::to_string(count) + " buildings and parts, " +
                std::to_string(file.polygons_of_lod.at(lod)) + " polygons");
+    }
+    for (const auto& [lod, count] : file.polygons) {
+      if (count.named == 0) continue;
+      line("LoD" + std::to_string(lod) + " in file",
+           std::to_string(count.met) + " polygons, " + std::to_string(count.read) + " read, " +
+               std::to_string(count.named) + " passed over (named below)");
     }
   }
   context.Print("read as");
@@ -178,9 +194,14 @@ void PrintRaster(const RasterInfo& info, const Context& context) {
     context.Print("  east     " + Range(info.lowest.x(), info.highest.x(), ""));
     context.Print("  north    " + Range(info.lowest.y(), info.highest.y(), ""));
     if (info.min_value) {
-      context.Print("  values   " + Range(*info.min_value, *info.max_value, ""));
+      context.Print("  values   " + Range(*info.min_value,
+                                          *info.max_value,
+                                          info.unit.empty() ? "" : " " + info.unit));
     }
-    context.Print("  known    " + Fixed(100.0 * info.known_share, 2) + " %");
+    context.Print(
+        "  known    " + Fixed(100.0 * info.known_share, 2) + " %" +
+        (info.row_step > 1 ? " (of every row in " + std::to_string(info.row_step) + ")" : ""));
+    for (const std::string& warning : info.warnings) context.Print("  " + warning);
   }
   for (const auto& [key, value] : info.exif) context.Print("  " + key + " = " + value);
   if (!info.georeferenced) {
@@ -207,7 +228,7 @@ int RunInfo(const InfoArguments& arguments, const Context& context) {
   for (const std::string& file : arguments.files) {
     std::error_code error;
     const bool is_model = fs::is_directory(file, error) || !fs::exists(file, error) ||
-                          fs::path(file).extension() == ".gpkg" || LooksLikeModelFile(file);
+                          IsCityStore(file) || FormatOfName(file) != nullptr;
     (is_model ? models : rasters).emplace_back(file);
   }
   if (models.empty()) RefuseModelOptions(arguments.city);

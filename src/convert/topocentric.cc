@@ -72,6 +72,7 @@ Pose Topocentric::ToProjected(const Pose& pose, const Crs& crs, const std::strin
         "latitude " + std::to_string(place.x()) + ", longitude " + std::to_string(place.y()),
         "a place in the reach of " + CrsName(crs));
   }
+  CheckMapSystem(crs, *east_north, file, "crs");
   // Grid east and north in true east and north.
   const double c = std::cos(*convergence * kRadPerDeg);
   const double s = std::sin(*convergence * kRadPerDeg);

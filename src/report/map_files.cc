@@ -15,6 +15,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/gdal_handles.h"
 #include "report/map_shapes.h"
 
 namespace ridgeline {
@@ -36,11 +37,6 @@ struct Feature {
   const ReportRun* run;
   const ReportPose* pose;  // its angles are attributes; may be null
 };
-
-struct CloseDataset {
-  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
-};
-using DatasetPtr = std::unique_ptr<GDALDataset, CloseDataset>;
 
 struct DestroyFeature {
   void operator()(OGRFeature* feature) const { OGRFeature::DestroyFeature(feature); }
@@ -194,7 +190,7 @@ void WriteMap(std::span<const ReportRun> runs, int epsg, const fs::path& path) {
 
   const fs::path temporary = TemporaryBeside(path);
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(driver_name.c_str());
-  DatasetPtr dataset(driver->Create(temporary.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+  GdalDatasetPtr dataset(driver->Create(temporary.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
   if (!dataset) FailWriting(path);
   // One transaction for the whole file: SQLite flushes the disk for each.
   if (many_layers && dataset->StartTransaction() != OGRERR_NONE) FailWriting(path);
@@ -223,7 +219,7 @@ void WriteEnergyMap(const ReportEnergyMap& map, int epsg, const fs::path& path) 
   GDALAllRegister();
   const fs::path temporary = TemporaryBeside(path);
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
-  DatasetPtr dataset(
+  GdalDatasetPtr dataset(
       driver->Create(temporary.c_str(), map.columns, map.rows, 1, GDT_Float32, nullptr));
   if (!dataset) FailWriting(path);
   const double north = map.first.y() + (map.rows - 0.5) * map.spacing_m;

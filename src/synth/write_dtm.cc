@@ -3,34 +3,25 @@
 #include <ogr_spatialref.h>
 
 #include <array>
-#include <memory>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/gdal_handles.h"
 #include "synth/write_city.h"
 
 namespace ridgeline {
-namespace {
-
-struct CloseDataset {
-  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
-};
-
-}  // namespace
-
 void WriteDtm(const Town& town, const HeightGrid& grid, const std::filesystem::path& path) {
   GDALAllRegister();
   const std::filesystem::path temporary = TemporaryBeside(path);
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
   const std::array<const char*, 4> creation = {
       "COMPRESS=DEFLATE", "PREDICTOR=3", "TILED=YES", nullptr};
-  std::unique_ptr<GDALDataset, CloseDataset> dataset(
-      driver->Create(temporary.c_str(),
-                     grid.columns,
-                     grid.rows,
-                     1,
-                     GDT_Float32,
-                     const_cast<char**>(creation.data())));
+  GdalDatasetPtr dataset(driver->Create(temporary.c_str(),
+                                        grid.columns,
+                                        grid.rows,
+                                        1,
+                                        GDT_Float32,
+                                        const_cast<char**>(creation.data())));
   if (!dataset) throw InputError(path.string(), "", CPLGetLastErrorMsg(), "a writable GeoTIFF");
 
   const double top = grid.first.y() + (grid.rows - 1) * grid.spacing_m;

@@ -2,6 +2,9 @@
 #include "city/crs.h"
 
 #include <gtest/gtest.h>
+#include <ogr_spatialref.h>
+
+#include <string>
 
 #include "base/error.h"
 
@@ -46,7 +49,44 @@ INSTANTIATE_TEST_SUITE_P(
                       Spelling{"urn:adv:crs:ETRS89_UTM32*DE_DHHN92_NH", 25832, 5783},
                       Spelling{"urn:adv:crs:ETRS89_UTM33", 25833, 0},
                       Spelling{"urn:adv:crs:DE_DHDN_3GK4*DE_DHHN92_NH", 31468, 5783},
-                      Spelling{"ETRS89_UTM32*DE_DHHN2016_NH", 25832, 7837}));
+                      Spelling{"ETRS89_UTM32*DE_DHHN2016_NH", 25832, 7837},
+                      Spelling{"http://www.opengis.net/def/crs-compound?"
+                               "1=http://www.opengis.net/def/crs/EPSG/0/25832&"
+                               "2=http://www.opengis.net/def/crs/EPSG/0/7837",
+                               25832,
+                               7837}));
+
+std::string WktOf(const OGRSpatialReference& srs) {
+  char* text = nullptr;
+  srs.exportToWkt(&text);
+  const std::string wkt = text;
+  CPLFree(text);
+  return wkt;
+}
+
+TEST(Crs, WktIsUnderstood) {
+  OGRSpatialReference compound;
+  compound.SetFromUserInput("EPSG:25832+7837");
+  const std::optional<Crs> parts = ParseCrs(WktOf(compound));
+  ASSERT_TRUE(parts.has_value());
+  EXPECT_EQ(parts->horizontal_epsg, 25832);
+  EXPECT_EQ(parts->vertical_epsg, 7837);
+  OGRSpatialReference promoted;
+  promoted.importFromEPSG(25832);
+  promoted.PromoteTo3D(nullptr);
+  const std::optional<Crs> flat = ParseCrs(WktOf(promoted));
+  ASSERT_TRUE(flat.has_value());
+  EXPECT_EQ(flat->horizontal_epsg, 25832);
+  // As ESRI and older programs write it: without a code.
+  const std::optional<Crs> bare = ParseCrs(
+      R"(PROJCS["ETRS89 / UTM zone 32N",GEOGCS["ETRS89",DATUM["European_Terrestrial_Reference_System_)"
+      R"(1989",SPHEROID["GRS 1980",6378137,298.257222101]],PRIMEM["Greenwich",0],UNIT["degree",)"
+      R"(0.0174532925199433]],PROJECTION["Transverse_Mercator"],PARAMETER["latitude_of_origin",0],)"
+      R"(PARAMETER["central_meridian",9],PARAMETER["scale_factor",0.9996],PARAMETER["false_easting",)"
+      R"(500000],PARAMETER["false_northing",0],UNIT["metre",1]])");
+  ASSERT_TRUE(bare.has_value());
+  EXPECT_EQ(bare->horizontal_epsg, 25832);
+}
 
 TEST(Crs, NonsenseIsNotUnderstood) {
   for (const char* name :

@@ -188,6 +188,9 @@ TEST_F(Convert, BadReconstructionsNameThePlace) {
   EXPECT_EQ(error(Reconstruction(kPerspective, "\"rotation\": [0, 1]")),
             "r.json: [0].shots.IMG_1.JPG.rotation: got [0,1], expected three numbers");
   EXPECT_THAT(error(good, "EPSG:4326"), HasSubstr("a place in the reach of EPSG:4326"));
+  // Munich in Japan's, in feet, in web Mercator.
+  EXPECT_THAT(error(good, "EPSG:6677"), HasSubstr("a place in the reach of EPSG:6677"));
+  EXPECT_THAT(error(good, "EPSG:3857"), HasSubstr("EPSG:3857, whose metres are 1.4"));
 }
 
 // Metashape's and Pix4D's headers; level to the north-east, and nadir.

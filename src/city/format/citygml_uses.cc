@@ -3,34 +3,47 @@
 
 #include <Eigen/Geometry>
 #include <set>
+#include <string>
 #include <utility>
 
+#include "base/error.h"
 #include "base/random.h"
 
 namespace ridgeline {
 namespace {
 
 constexpr int kMaxLinkDepth = 8;
+// Links to links fan out: what comes out is bounded by what is written.
+constexpr std::size_t kMaxPerUse = 16;
+constexpr std::size_t kMaxAnyway = 100'000;
+constexpr std::size_t kMaxCopiedPoints = 10'000'000;  // of implicit geometries
 
 class Assigner {
  public:
   Assigner(const GmlUses& gml, SourceModel& model)
-      : gml_(gml), model_(model), used_(model.polygons.size(), 0) {
+      : gml_(gml),
+        model_(model),
+        most_(kMaxAnyway + kMaxPerUse * gml.uses.size()),
+        used_(model.polygons.size(), 0) {
     FindThematicBuildings();
   }
 
   void Run() {
+    std::vector<bool> named(gml_.uses.size(), false);
     for (const Rank rank : {Rank::kBoundary, Rank::kSolid, Rank::kLoose}) {
-      for (const GmlUse& use : gml_.uses) {
+      for (std::size_t u = 0; u < gml_.uses.size(); ++u) {
+        const GmlUse& use = gml_.uses[u];
         if (use.prototype || use.building < 0 || use.lod < 0 || RankOf(use) != rank) continue;
         if (rank == Rank::kSolid && RepeatsBoundary(use)) {
           model_.tally.Add("polygons of solids not used beside boundary surfaces",
                            model_.buildings[static_cast<std::size_t>(use.building)].id);
+          named[u] = true;
           continue;
         }
         Expand(use, use, use.reversed, 0);
       }
     }
+    CountPolygons(named);
   }
 
  private:
@@ -59,12 +72,39 @@ class Assigner {
            !with_linked_solid_.contains(key);
   }
 
+  void CountPolygons(const std::vector<bool>& named) {
+    for (std::size_t u = 0; u < gml_.uses.size(); ++u) {
+      const GmlUse& use = gml_.uses[u];
+      if (use.kind != GmlUse::Kind::kPolygon || use.prototype) continue;
+      PolygonCount& count = model_.polygons_of_lod[use.lod];
+      if (((used_[use.index] >> use.lod) & 1) != 0) {
+        ++count.read;
+      } else if (named[u]) {
+        ++count.named;
+      }
+    }
+  }
+
+  // One more step along links, or copied points.
+  void Spend(std::size_t points) {
+    copied_ += points;
+    if (++steps_ <= most_ && copied_ <= kMaxCopiedPoints) return;
+    throw InputError(
+        model_.file,
+        "limit",
+        copied_ > kMaxCopiedPoints
+            ? "implicit geometries of more than " + std::to_string(kMaxCopiedPoints) + " points"
+            : "links that stand for more than " + std::to_string(most_) + " polygons",
+        "geometry that is written out, not multiplied by links");
+  }
+
   const std::string& BuildingId(const GmlUse& use) const {
     return model_.buildings[static_cast<std::size_t>(use.building)].id;
   }
 
   // Adds the polygons that `use` stands for, with the building, level and class of `holder`.
   void Expand(const GmlUse& use, const GmlUse& holder, bool reversed, int depth) {
+    Spend(0);
     switch (use.kind) {
       case GmlUse::Kind::kPolygon:
         AddPolygon(use, holder, reversed);
@@ -129,6 +169,7 @@ class Assigner {
     if (depth >= kMaxLinkDepth) return;
     for (std::uint32_t i = implicit.prototype.begin; i < implicit.prototype.end; ++i) {
       const GmlUse& use = gml_.uses[i];
+      Spend(0);
       if (use.kind == GmlUse::Kind::kPolygon) {
         GmlUse moved = use;
         moved.index = MovedCopy(use.index, implicit);
@@ -150,6 +191,7 @@ class Assigner {
     for (std::uint32_t r = 0; r < copy.ring_count; ++r) {
       SourceRing ring = model_.rings[first_ring + r];
       const std::uint32_t first_point = ring.first_point;
+      Spend(ring.point_count);
       ring.first_point = static_cast<std::uint32_t>(model_.points.size());
       for (std::uint32_t p = 0; p < ring.point_count; ++p) {
         const Eigen::Vector4d moved =
@@ -165,6 +207,9 @@ class Assigner {
 
   const GmlUses& gml_;
   SourceModel& model_;
+  const std::size_t most_;
+  std::size_t steps_ = 0;
+  std::size_t copied_ = 0;
   std::vector<std::uint8_t> used_;  // per polygon: a bit per level of detail
   std::set<std::pair<std::int32_t, std::int8_t>> with_boundary_;
   std::set<std::pair<std::int32_t, std::int8_t>> with_linked_solid_;

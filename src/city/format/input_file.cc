@@ -4,9 +4,18 @@
 #include <cpl_conv.h>
 #include <cpl_vsi.h>
 
+#include <algorithm>
+
 #include "base/error.h"
 
 namespace ridgeline {
+namespace {
+
+// Packed models grow 10 to 30 times.
+constexpr std::uint64_t kMaxExpansion = 64;
+constexpr std::uint64_t kLeastLimit = std::uint64_t{64} << 20;
+
+}  // namespace
 
 struct InputFile::Impl {
   VSILFILE* file = nullptr;
@@ -18,11 +27,18 @@ struct InputFile::Impl {
 InputFile::InputFile(const std::filesystem::path& path)
     : name_(path.string()), impl_(std::make_unique<Impl>()) {
   VSIStatBufL stat;
-  if (VSIStatExL(name_.c_str(), &stat, VSI_STAT_EXISTS_FLAG | VSI_STAT_NATURE_FLAG) != 0) {
+  if (VSIStatExL(name_.c_str(),
+                 &stat,
+                 VSI_STAT_EXISTS_FLAG | VSI_STAT_NATURE_FLAG | VSI_STAT_SIZE_FLAG) != 0) {
     throw InputError(name_, "", "no such file", "a model file");
   }
   if (VSI_ISDIR(stat.st_mode)) throw InputError(name_, "", "a folder", "a model file");
+  if (!VSI_ISREG(stat.st_mode)) {
+    throw InputError(name_, "", "a pipe or a device", "a regular file");
+  }
   const bool gzipped = path.extension() == ".gz";
+  if (gzipped)
+    most_bytes_ = std::max(kLeastLimit, kMaxExpansion * static_cast<std::uint64_t>(stat.st_size));
   impl_->file = VSIFOpenL((gzipped ? "/vsigzip/" + name_ : name_).c_str(), "rb");
   if (impl_->file == nullptr) {
     throw InputError(name_, "", "a file that cannot be read", "read permission");
@@ -32,7 +48,16 @@ InputFile::InputFile(const std::filesystem::path& path)
 InputFile::~InputFile() = default;
 
 std::size_t InputFile::Read(char* buffer, std::size_t size) {
-  return VSIFReadL(buffer, 1, size, impl_->file);
+  const std::size_t count = VSIFReadL(buffer, 1, size, impl_->file);
+  bytes_read_ += count;
+  if (bytes_read_ > most_bytes_) {
+    throw InputError(
+        name_,
+        "limit",
+        "a file that grows to more than " + std::to_string(most_bytes_ >> 20) + " MB when unpacked",
+        "at most " + std::to_string(kMaxExpansion) + " times its size (gunzip it to have it read)");
+  }
+  return count;
 }
 
 std::string InputFile::ReadAll() {

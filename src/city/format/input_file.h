@@ -2,14 +2,17 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
 
 namespace ridgeline {
 
 // A model file read in order: plain, gzipped (*.gz), or anything GDAL's virtual file systems know
-// (/vsizip/, /vsicurl/). Throws InputError if it is missing, a folder, or cannot be read.
+// (/vsizip/, /vsicurl/). Throws InputError if it is missing, no regular file, or cannot be
+// read, and where a packed file grows beyond 64 times its size.
 class InputFile {
  public:
   explicit InputFile(const std::filesystem::path& path);
@@ -27,6 +30,8 @@ class InputFile {
   struct Impl;
   std::string name_;
   std::unique_ptr<Impl> impl_;
+  std::uint64_t bytes_read_ = 0;
+  std::uint64_t most_bytes_ = std::numeric_limits<std::uint64_t>::max();
 };
 
 }  // namespace ridgeline

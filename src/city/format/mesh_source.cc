@@ -94,10 +94,14 @@ void MeshSource::SetClassFromName(std::string_view name) {
 }
 
 void MeshSource::AddFace(std::span<const std::uint32_t> corners) {
+  PolygonCount& count = model_.polygons_of_lod[kLod];
+  ++count.met;
   if (corners.size() < 3) {
+    ++count.named;
     model_.tally.Add("faces with fewer than 3 points dropped", std::size_t{1});
     return;
   }
+  ++count.read;
   MeshFace face{static_cast<std::uint32_t>(corners_.size()),
                 static_cast<std::uint32_t>(corners.size()),
                 object_,

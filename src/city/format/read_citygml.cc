@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -17,6 +18,8 @@
 
 namespace ridgeline {
 namespace {
+
+constexpr std::size_t kMaxDepth = 200;  // of elements; models have about 25
 
 // State that an element hands down to its children.
 struct Scope {
@@ -44,11 +47,19 @@ class CityGmlHandler final : public XmlHandler {
   void Start(std::string_view name, const XmlAttributes& attributes) override {
     const std::string_view local = LocalName(name);
     if (stack_.empty()) CheckRoot(local, attributes);
-    if (skip_depth_ > 0) {
-      ++skip_depth_;
-      return;
+    if (stack_.size() + skip_depth_ >= kMaxDepth) {
+      throw InputError(model_.file,
+                       "limit",
+                       "elements nested deeper than " + std::to_string(kMaxDepth) + " at line " +
+                           std::to_string(XmlLine(parser_)),
+                       "a document of buildings");
     }
     const GmlElement element = FindGmlElement(local);
+    if (skip_depth_ > 0) {
+      ++skip_depth_;
+      if (element.tag == GmlTag::kPolygon) CountSkipped();
+      return;
+    }
     const GmlTag parent = stack_.empty() ? GmlTag::kOther : stack_.back().tag;
     if (element.tag == GmlTag::kSkipped) {
       ++skip_depth_;
@@ -126,6 +137,13 @@ class CityGmlHandler final : public XmlHandler {
     }
   }
 
+  // Of rooms, furniture, inner surfaces and inner shells.
+  void CountSkipped() {
+    if (!stack_.empty() && stack_.back().building >= 0) {
+      model_.tally.Add("polygons inside of buildings passed over", BuildingId());
+    }
+  }
+
   void CountOther(std::string_view local) {
     if (local != "CityObjectGroup") {
       model_.tally.Add(std::string(local) + " objects (not buildings) passed over", std::size_t{1});
@@ -140,6 +158,9 @@ class CityGmlHandler final : public XmlHandler {
         scope.id_hash = HashText(value);
       } else if (key == "srsName") {
         AddSrsName(value);
+      } else if (key == "uomLabels" && model_.axis_units.empty()) {
+        std::istringstream words{std::string(value)};
+        for (std::string word; words >> word;) model_.axis_units.push_back(word);
       } else if (key == "srsDimension") {
         scope.dimension = value == "2" ? 2 : 3;
       }
@@ -228,6 +249,7 @@ class CityGmlHandler final : public XmlHandler {
       }
       return;
     }
+    if (!scope.prototype) ++model_.polygons_of_lod[scope.lod].met;
     polygon_.BeginPolygon(attributes.Local("id"));
   }
 
@@ -303,7 +325,10 @@ class CityGmlHandler final : public XmlHandler {
 
   void LeavePolygon(const Scope& scope) {
     const std::optional<std::uint32_t> polygon = polygon_.EndPolygon(BuildingIdOf(scope));
-    if (!polygon) return;
+    if (!polygon) {
+      if (!scope.prototype) ++model_.polygons_of_lod[scope.lod].named;
+      return;
+    }
     GmlUse use = UseOf(scope);
     use.index = *polygon;
     gml_.uses.push_back(use);

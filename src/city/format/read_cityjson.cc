@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "base/error.h"
 
@@ -55,6 +56,33 @@ double LodOf(const Json& geometry) {
   } catch (const std::exception&) {
     return -1.0;
   }
+}
+
+// The integer level; -1: none that is known.
+int LevelOf(double lod) { return lod >= 0.0 && lod < 5.0 ? static_cast<int>(lod) : -1; }
+
+bool IsSurfaceList(const std::string& type) {
+  return type == "MultiSurface" || type == "CompositeSurface";
+}
+
+bool HasSurfaces(const Json& shape) {
+  const std::string type = shape.value("type", "");
+  return IsSurfaceList(type) || type == "Solid" || type == "MultiSolid" || type == "CompositeSolid";
+}
+
+std::size_t PolygonsIn(const Json& shape) {
+  const std::string type = shape.value("type", "");
+  const Json& boundaries = shape.at("boundaries");
+  if (IsSurfaceList(type)) return boundaries.size();
+  std::size_t count = 0;
+  for (const Json& part : boundaries) {  // shells, or solids of shells
+    if (type == "Solid") {
+      count += part.size();
+    } else {
+      for (const Json& shell : part) count += shell.size();
+    }
+  }
+  return count;
 }
 
 class CityJsonReader {
@@ -120,6 +148,7 @@ class CityJsonReader {
       }
       if (owner >= 0) ReadGeometries(id, object, owner, own == index.end());
     }
+    for (const auto& [id, b] : index) CheckParents(id, b);
   }
 
  private:
@@ -135,6 +164,19 @@ class CityJsonReader {
     return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
   }
 
+  // Parts of parts end somewhere.
+  void CheckParents(const std::string& id, int building) const {
+    constexpr int kMaxGenerations = 64;
+    int generations = 0;
+    for (int b = building; b >= 0; b = model_.buildings[static_cast<std::size_t>(b)].parent) {
+      if (++generations <= kMaxGenerations) continue;
+      throw InputError(model_.file,
+                       "limit",
+                       "more than " + std::to_string(kMaxGenerations) + " parents above " + id,
+                       "parts of buildings, not in a circle");
+    }
+  }
+
   static int ParentOf(const Json& object, const std::unordered_map<std::string, int>& index) {
     const auto it = object.find("parents");
     if (it == object.end() || !it->is_array()) return -1;
@@ -145,27 +187,59 @@ class CityJsonReader {
     return -1;
   }
 
+  // What a geometry is drawn from: itself, or the template of an instance.
+  const Json& ShapeOf(const Json& geometry) const {
+    if (geometry.value("type", "") != "GeometryInstance") return geometry;
+    const std::size_t index = geometry.at("template").get<std::size_t>();
+    if (index >= templates_.size()) {
+      Fail("template " + std::to_string(index),
+           "one of the file's " + std::to_string(templates_.size()) + " templates");
+    }
+    return templates_[index];
+  }
+
+  // All surfaces of the finest fraction of each integer level are one shape: 3DBAG gives 1.2 and
+  // 1.3, other programs the roof in one geometry and the walls in another.
   void ReadGeometries(const std::string& id, const Json& object, int owner, bool installation) {
     const auto it = object.find("geometry");
     if (it == object.end()) return;
-    // The finest of each level: 3DBAG gives 1.2 and 1.3.
-    std::map<int, std::pair<double, std::size_t>> finest;
+    owner_ = static_cast<std::size_t>(owner);
+    installation_ = installation;
+    const auto place_at = [&](std::size_t g) {
+      place_ = "CityObjects." + id + ".geometry[" + std::to_string(g) + "]";
+    };
+    std::map<int, double> finest;
+    std::map<int, std::vector<std::size_t>> geometries_of_level;
+    std::vector<double> lods(it->size(), -1.0);
     for (std::size_t g = 0; g < it->size(); ++g) {
-      const double lod = LodOf((*it)[g]);
-      const bool instance = (*it)[g].value("type", "") == "GeometryInstance";
-      if (lod < 0.0 && !instance) {
-        model_.tally.Add("geometries without a level of detail dropped", id);
+      place_at(g);
+      const Json& shape = ShapeOf((*it)[g]);
+      if (!HasSurfaces(shape)) {
+        model_.tally.Add(shape.value("type", "") + " geometries (no surfaces) passed over", Id());
         continue;
       }
-      const int level = instance ? 100 + static_cast<int>(g) : static_cast<int>(lod);
-      const auto [entry, is_new] = finest.try_emplace(level, lod, g);
-      if (!is_new && lod > entry->second.first) entry->second = {lod, g};
+      lods[g] = LodOf(shape);
+      const int level = LevelOf(lods[g]);
+      model_.polygons_of_lod[level].met += PolygonsIn(shape);
+      if (level < 0) {
+        PassOver("polygons without a level of detail passed over", level, PolygonsIn(shape));
+        continue;
+      }
+      double& best = finest.try_emplace(level, lods[g]).first->second;
+      best = std::max(best, lods[g]);
+      geometries_of_level[level].push_back(g);
     }
-    for (const auto& [level, choice] : finest) {
-      place_ = "CityObjects." + id + ".geometry[" + std::to_string(choice.second) + "]";
-      owner_ = static_cast<std::size_t>(owner);
-      installation_ = installation;
-      ReadGeometry((*it)[choice.second]);
+    for (const auto& [level, geometries] : geometries_of_level) {
+      for (const std::size_t g : geometries) {
+        place_at(g);
+        if (lods[g] < finest[level]) {
+          PassOver("polygons of a coarser fraction of their level of detail passed over",
+                   level,
+                   PolygonsIn(ShapeOf((*it)[g])));
+        } else {
+          ReadGeometry((*it)[g]);
+        }
+      }
     }
   }
 
@@ -174,11 +248,7 @@ class CityJsonReader {
       ReadBoundaries(geometry, vertices_, Eigen::Matrix4d::Identity());
       return;
     }
-    const std::size_t index = geometry.at("template").get<std::size_t>();
-    if (index >= templates_.size()) {
-      Fail("template " + std::to_string(index),
-           "one of the file's " + std::to_string(templates_.size()) + " templates");
-    }
+    const Json& shape = ShapeOf(geometry);
     const Json& numbers = geometry.at("transformationMatrix");
     if (numbers.size() != 16)
       Fail("a transformationMatrix of " + std::to_string(numbers.size()), "16 numbers");
@@ -189,18 +259,13 @@ class CityJsonReader {
       Fail("vertex " + std::to_string(anchor), "a vertex of the file");
     Eigen::Matrix4d place = Eigen::Matrix4d::Identity();
     place.topRightCorner<3, 1>() = vertices_[anchor];
-    ReadBoundaries(templates_[index], template_vertices_, place * matrix);
+    ReadBoundaries(shape, template_vertices_, place * matrix);
   }
 
   void ReadBoundaries(const Json& geometry,
                       const std::vector<Eigen::Vector3d>& vertices,
                       const Eigen::Matrix4d& transform) {
-    const double lod = LodOf(geometry);
-    if (lod < 0.0 || lod >= 5.0) {
-      model_.tally.Add("geometries without a level of detail dropped", Id());
-      return;
-    }
-    lod_ = static_cast<std::int8_t>(lod);
+    lod_ = static_cast<std::int8_t>(LevelOf(LodOf(geometry)));
     from_ = &vertices;
     transform_ = transform;
     kinds_.clear();
@@ -211,14 +276,12 @@ class CityJsonReader {
     }
     const std::string type = geometry.value("type", "");
     const Json& boundaries = geometry.at("boundaries");
-    if (type == "MultiSurface" || type == "CompositeSurface") {
+    if (IsSurfaceList(type)) {
       ReadSurfaces(boundaries, values);
     } else if (type == "Solid") {
       ReadSolid(boundaries, values);
-    } else if (type == "MultiSolid" || type == "CompositeSolid") {
+    } else {  // MultiSolid, CompositeSolid
       for (std::size_t i = 0; i < boundaries.size(); ++i) ReadSolid(boundaries[i], At(values, i));
-    } else {
-      model_.tally.Add(type + " geometries (no surfaces) dropped", Id());
     }
   }
 
@@ -233,7 +296,7 @@ class CityJsonReader {
       if (i == 0) {
         ReadSurfaces(shells[i], At(values, i));
       } else {
-        model_.tally.Add("inner shells of solids passed over", Id());
+        PassOver("polygons of inner shells of solids passed over", lod_, shells[i].size());
       }
     }
   }
@@ -248,7 +311,10 @@ class CityJsonReader {
           Fail("semantics value " + value->dump(), "an index of its surfaces");
         kind = kinds_[k];
       }
-      if (kind.interior) continue;
+      if (kind.interior) {
+        PassOver("polygons inside of buildings passed over", lod_, 1);
+        continue;
+      }
       if (installation_ && !kind.has_class) kind.has_class = true;
       ReadPolygon(surfaces[i], kind);
     }
@@ -269,16 +335,21 @@ class CityJsonReader {
       }
       if (ring.point_count < 3) {
         model_.points.resize(ring.first_point);
-        model_.tally.Add(r == 0 ? "polygons with fewer than 3 points dropped"
-                                : "holes with fewer than 3 points dropped",
-                         Id());
-        if (r == 0) return;
+        if (r == 0) {
+          PassOver("polygons with fewer than 3 points dropped", lod_, 1);
+          return;
+        }
+        model_.tally.Add("holes with fewer than 3 points dropped", Id());
         continue;
       }
       model_.rings.push_back(ring);
       ++polygon.ring_count;
     }
-    if (polygon.ring_count == 0) return;
+    if (polygon.ring_count == 0) {
+      PassOver("polygons with fewer than 3 points dropped", lod_, 1);
+      return;
+    }
+    ++model_.polygons_of_lod[lod_].read;
     SourceMember member;
     member.polygon = static_cast<std::uint32_t>(model_.polygons.size());
     member.lod = lod_;
@@ -286,6 +357,11 @@ class CityJsonReader {
     member.has_class = kind.has_class;
     model_.polygons.push_back(std::move(polygon));
     model_.buildings[owner_].members.push_back(member);
+  }
+
+  void PassOver(const std::string& kind, int lod, std::size_t polygons) {
+    for (std::size_t i = 0; i < polygons; ++i) model_.tally.Add(kind, Id());
+    model_.polygons_of_lod[lod].named += polygons;
   }
 
   const std::string& Id() const { return model_.buildings[owner_].id; }
@@ -317,7 +393,37 @@ class CityJsonReader {
                    "a whole CityJSON document");
 }
 
+// Throws for text nested deeper than any CityJSON is, before a parser builds it.
+void CheckDepth(std::string_view text, const std::string& file) {
+  constexpr int kMaxDepth = 100;
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string) {
+      if (c == '\\') {
+        ++i;
+      } else if (c == '"') {
+        in_string = false;
+      }
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '[' || c == '{') {
+      if (++depth > kMaxDepth) {
+        throw InputError(file,
+                         "limit",
+                         "JSON nested deeper than " + std::to_string(kMaxDepth) + " at byte " +
+                             std::to_string(i),
+                         "a CityJSON document");
+      }
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+}
+
 Json Parse(std::string_view text, const std::string& file, const std::string& place) {
+  CheckDepth(text, file);
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& e) {
@@ -347,9 +453,10 @@ void ReadSequence(const std::string& text, CityJsonReader& reader, const std::st
 }
 
 // A sequence has a whole object on its first line and more after it.
-bool IsSequence(const std::string& text) {
+bool IsSequence(const std::string& text, const std::string& file) {
   const std::size_t end = text.find('\n');
   if (end == std::string::npos || text.find('{', end) == std::string::npos) return false;
+  CheckDepth(std::string_view(text).substr(0, end), file);
   return Json::accept(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end));
 }
 
@@ -362,7 +469,7 @@ SourceModel ReadCityJson(InputFile& file) {
   if (text.empty()) throw InputError(model.file, "", "an empty file", "a CityJSON document");
   CityJsonReader reader(model);
   try {
-    if (IsSequence(text)) {
+    if (IsSequence(text, model.file)) {
       ReadSequence(text, reader, model.file);
       model.format.replace(0, 8, "CityJSONSeq");
     } else {

@@ -92,7 +92,7 @@ void AppendMesh(const FaceSet& set, int threads, CityModel& model, Tally& tally)
 
 CityModel BuildModel(std::vector<SourceModel>& sources,
                      const Crs& crs,
-                     const CityOptions& options,
+                     const MeshOptions& options,
                      BuildStatistics* statistics) {
   CityModel model;
   model.crs = crs;

@@ -2,11 +2,10 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <vector>
 
 #include "city/city_model.h"
-#include "city/read_city.h"
+#include "city/mesh/mesh_options.h"
 #include "city/source_model.h"
 #include "city/tally.h"
 
@@ -23,18 +22,7 @@ struct BuildStatistics {
 // consumed.
 CityModel BuildModel(std::vector<SourceModel>& sources,
                      const Crs& crs,
-                     const CityOptions& options,
+                     const MeshOptions& options,
                      BuildStatistics* statistics = nullptr);
-
-// Reads the files and moves them to one projected system: the first half of ReadCity.
-struct ProjectedSources {
-  std::vector<SourceModel> sources;
-  Crs crs;
-  // East and north of all buildings, those outside of the region too.
-  Eigen::AlignedBox2d extent;
-  std::vector<std::string> warnings;  // of files that were fetched
-};
-ProjectedSources ReadProjectedSources(const std::vector<std::filesystem::path>& paths,
-                                      const CityOptions& options);
 
 }  // namespace ridgeline

@@ -16,12 +16,14 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/gdal_handles.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "city/crs.h"
-#include "city/format/read_source.h"
-#include "city/mesh/build_model.h"
+#include "city/format/formats.h"
+#include "city/format/model_files.h"
 #include "city/mesh/select_lod.h"
+#include "city/projected_sources.h"
 #include "city/store/building_blob.h"
 
 namespace ridgeline {
@@ -34,20 +36,6 @@ constexpr const char* kCompleteKey = "RIDGELINE_COMPLETE";
 constexpr const char* kSettingsKey = "RIDGELINE_SETTINGS";
 constexpr const char* kHorizontalKey = "RIDGELINE_HORIZONTAL_EPSG";
 constexpr const char* kVerticalKey = "RIDGELINE_VERTICAL_EPSG";
-
-// GDAL's messages come back as errors of ours.
-class QuietGdal {
- public:
-  QuietGdal() { CPLPushErrorHandler(CPLQuietErrorHandler); }
-  ~QuietGdal() { CPLPopErrorHandler(); }
-  QuietGdal(const QuietGdal&) = delete;
-  QuietGdal& operator=(const QuietGdal&) = delete;
-};
-
-struct DatasetCloser {
-  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
-};
-using DatasetPtr = std::unique_ptr<GDALDataset, DatasetCloser>;
 
 [[noreturn]] void FailWrite(const std::string& file) {
   const std::string message = CPLGetLastErrorMsg();
@@ -136,7 +124,10 @@ StoredBuilding Store(const SourceModel& source, const SourceBuilding& building, 
 }
 
 void ReadTile(Tile& tile, const CityOptions& options) {
-  ProjectedSources projected = ReadProjectedSources({tile.path}, options);
+  std::vector<SourceModel> sources(1);
+  sources.front() =
+      IsCityStore(tile.path) ? ReadCityStore(tile.path, {}) : ReadModelFile(tile.path);
+  ProjectedSources projected = ProjectSources(std::move(sources), options);
   SourceModel& source = projected.sources.front();
   tile.crs = projected.crs;
   const std::vector<std::int8_t> lods = SelectLod(source, options.lod);
@@ -340,7 +331,7 @@ class StoreWriter {
 
   std::string file_;
   std::string settings_;
-  DatasetPtr dataset_;
+  GdalDatasetPtr dataset_;
   OGRLayer* tiles_ = nullptr;
   OGRLayer* buildings_ = nullptr;
   Crs crs_;
@@ -367,7 +358,8 @@ CityStoreResult WriteCityStore(const std::vector<fs::path>& tiles,
   if (store.extension() != ".gpkg") {
     throw InputError(store.string(), "", "a name without .gpkg", "a name such as city.gpkg");
   }
-  const std::vector<fs::path> files = ListModelFiles(tiles);
+  ModelFiles listed = ListModelFiles(tiles);
+  const std::vector<fs::path>& files = listed.files;
   const WriterLock lock(store);
   fs::path part = store;
   part.replace_extension(".part.gpkg");
@@ -407,7 +399,8 @@ CityStoreResult WriteCityStore(const std::vector<fs::path>& tiles,
     }
   }
   result.buildings = writer.buildings();
-  result.warnings = tally.Lines();
+  result.warnings = std::move(listed.warnings);
+  for (std::string& line : tally.Lines()) result.warnings.push_back(std::move(line));
   if (result.buildings == 0) {
     throw InputError(store.string(), "", "tiles without any building", "buildings of LoD1 to LoD4");
   }

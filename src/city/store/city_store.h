@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "city/city_options.h"
 #include "city/city_region.h"
-#include "city/read_city.h"
 #include "city/source_model.h"
 
 namespace ridgeline {
@@ -37,6 +37,9 @@ CityStoreResult WriteCityStore(const std::vector<std::filesystem::path>& tiles,
                                const std::filesystem::path& store,
                                const CityOptions& options,
                                const CityStoreProgress& progress = {});
+
+// Whether a path is a store's, by its name (*.gpkg).
+bool IsCityStore(const std::filesystem::path& path);
 
 // The buildings of a store that the region includes; all without a region. Throws InputError for a
 // file that is not a whole store.

@@ -12,6 +12,7 @@
 #include <unordered_map>
 
 #include "base/error.h"
+#include "base/gdal_handles.h"
 #include "city/crs.h"
 #include "city/store/building_blob.h"
 #include "city/store/city_store.h"
@@ -19,10 +20,6 @@
 namespace ridgeline {
 namespace {
 
-struct DatasetCloser {
-  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
-};
-using DatasetPtr = std::unique_ptr<GDALDataset, DatasetCloser>;
 using FeaturesById = std::map<GIntBig, OGRFeatureUniquePtr>;
 
 int CodeOf(GDALDataset& dataset, const char* key) {
@@ -43,11 +40,11 @@ void CheckRead(const std::string& file) {
   throw InputError(file, "", "a store that cannot be read (" + said + ")", "a whole store");
 }
 
-DatasetPtr OpenStore(const std::string& file) {
+GdalDatasetPtr OpenStore(const std::string& file) {
   GDALAllRegister();
   CPLErrorReset();
   CPLPushErrorHandler(CPLQuietErrorHandler);
-  DatasetPtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
+  GdalDatasetPtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
   CPLPopErrorHandler();
   const std::string said = CPLGetLastErrorMsg();
   if (dataset == nullptr && said.find("locked") != std::string::npos) FailLocked(file);
@@ -112,12 +109,14 @@ bool IsIncluded(const OGRFeature& feature, const CityRegion& region) {
 
 }  // namespace
 
+bool IsCityStore(const std::filesystem::path& path) { return path.extension() == ".gpkg"; }
+
 SourceModel ReadCityStore(const std::filesystem::path& store,
                           const std::optional<CityRegion>& region) {
   SourceModel model;
   model.file = store.string();
   model.format = "ridgeline store";
-  const DatasetPtr dataset = OpenStore(model.file);
+  const GdalDatasetPtr dataset = OpenStore(model.file);
   const Crs crs{CodeOf(*dataset, "RIDGELINE_HORIZONTAL_EPSG"),
                 CodeOf(*dataset, "RIDGELINE_VERTICAL_EPSG")};
   if (crs.horizontal_epsg != 0) model.srs_names.push_back(CrsName(crs));
