@@ -7,9 +7,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <set>
@@ -36,7 +38,8 @@ const std::string kQuick =
     " --set search.refine=false --set score.name=line_energy --set confidence.abstain_below=0";
 const std::string kOneBlock = " --set town.blocks_east=1 --set town.blocks_north=1";
 
-// Command lines by words; {in}, {out} and {town} are folders.
+// Command lines by words; {in}, {out} and {town} are folders, {place}, {here} and {turned} where
+// the first picture of the town looks, was taken, and does not look.
 const std::map<std::string, std::string>& Bases() {
   static const std::map<std::string, std::string> bases = {
       {"localize",
@@ -55,7 +58,7 @@ const std::map<std::string, std::string>& Bases() {
        "augment --dataset {town}/dataset.json --query street_000 --building {in}/box.obj --place "
        "{place} --out {out}/a.png"},
       {"synth",
-       "synth --out {out}/t --size 64x48 --queries 0 --tilted 0 --portrait 0 --drone 0" +
+       "synth --out {out}/t --size 64x64 --queries 0 --tilted 0 --portrait 0 --drone 0" +
            kOneBlock},
       {"completion", "completion bash"}};
   return bases;
@@ -139,7 +142,7 @@ const std::map<std::string, std::map<std::string, std::string>>& Cases() {
         {"--crs", "--crs EPSG:25833"},
         {"--image", "--image {in}/flipped.png"},
         {"--camera", "--camera {in}/longer.json"},
-        {"--pose", "--pose {place},520,10,0,0"},
+        {"--pose", "--pose {here},{turned},0,0"},
         {"--out", "--out {out}/other.svg"},
         {"--shaded", "--shaded {out}/shaded.png"},
         {"--depth", "--depth {out}/depth.png"},
@@ -169,7 +172,7 @@ const std::map<std::string, std::map<std::string, std::string>>& Cases() {
         {"--crs", "--crs EPSG:25833"},
         {"--image", "--image {in}/flipped.png"},
         {"--camera", "--camera {in}/longer.json"},
-        {"--pose", "--pose {place},530,10,-20,0"},
+        {"--pose", "--pose {here},{turned},0,0"},
         {"--building", "--building {in}/none.obj"},
         {"--place", "--place 0"},
         {"--heading", "--heading 30"},
@@ -205,7 +208,11 @@ class Options : public ::testing::Test {
     const Json dataset = Json::parse(ReadFile(Town() / "dataset.json"));
     const Json query = dataset["queries"][0];
     const std::vector<double> p = query["truth"]["position"];
-    place_ = std::to_string(p[0]) + "," + std::to_string(p[1] + 20.0);
+    const double heading = query["prior"]["heading_deg"].get<double>() * std::numbers::pi / 180.0;
+    place_ = std::to_string(p[0] + 12.0 * std::sin(heading)) + "," +
+             std::to_string(p[1] + 12.0 * std::cos(heading));
+    here_ = std::to_string(p[0]) + "," + std::to_string(p[1]) + "," + std::to_string(p[2]);
+    turned_ = std::to_string(query["prior"]["heading_deg"].get<double>() + 10.0);
     const cv::Mat photo = cv::imread((Town() / query["image"]).string());
     cv::Mat flipped;
     cv::flip(photo, flipped, 1);
@@ -222,7 +229,10 @@ class Options : public ::testing::Test {
     Write("moved.json", prior.dump());
     Write("lines.txt",
           "10 200 300 190\n40 20 45 220\n100 30 101 200\n160 40 300 90\n20 80 200 70\n");
-    Write("config.json", R"({"search": {"heading_deg": 7}, "confidence": {"floor_m": 0.7}})");
+    // Of both kinds of search, and of the study.
+    Write("config.json",
+          R"({"search": {"heading_deg": 7, "map": {"heading_step_deg": 2}},
+              "confidence": {"floor_m": 0.7}})");
     Write("poses.csv", "query,e,n,h,qw,qx,qy,qz\nstreet_000,1,2,3,1,0,0,0\n");
     Write("box.obj",
           "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 0 0 9\nv 4 0 9\nv 4 4 9\nv 0 4 9\n"
@@ -241,7 +251,9 @@ class Options : public ::testing::Test {
       for (const auto& [name, value] : {std::pair<std::string, std::string>{"{in}", in_.string()},
                                         {"{out}", out_.string()},
                                         {"{town}", Town().string()},
-                                        {"{place}", place_}}) {
+                                        {"{place}", place_},
+                                        {"{here}", here_},
+                                        {"{turned}", turned_}}) {
         const std::size_t at = word.find(name);
         if (at != std::string::npos) word.replace(at, name.size(), value);
       }
@@ -303,7 +315,9 @@ class Options : public ::testing::Test {
 
   const fs::path in_ = Scratch("options in");
   const fs::path out_ = Scratch("options out");
-  std::string place_;
+  std::string place_;   // east,north of a spot 12 m before the camera
+  std::string here_;    // east,north,height of the camera
+  std::string turned_;  // heading 10 deg to its right
 };
 
 TEST_F(Options, EachChangesWhatComesOutOrIsRefused) {

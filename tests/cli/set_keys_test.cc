@@ -20,35 +20,47 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+// Every run: a small box, and few modes to refine.
+const std::vector<std::string> kSmall = {"search.east_m=2",
+                                         "search.north_m=2",
+                                         "search.heading_deg=3",
+                                         "search.pitch_deg=2",
+                                         "search.roll_deg=2",
+                                         "search.map.modes=3"};
+
+// A search by a sampler, on a cheap score unless told otherwise.
+std::vector<std::string> Sampled(const std::string& sampler,
+                                 int evaluations,
+                                 const std::string& score = "line_energy") {
+  return {"search.method=sampler",
+          "search.sampler.name=" + sampler,
+          "search.evaluations=" + std::to_string(evaluations),
+          "score.name=" + score,
+          "search.refine=false"};
+}
+
 // What makes the keys below a prefix work; the longest prefix counts.
 const std::map<std::string, std::vector<std::string>>& Companions() {
-  static const std::string sampler = "search.method=sampler";
-  static const auto named = [](const std::string& name, int evaluations) {
-    return std::vector<std::string>{sampler,
-                                    "search.sampler.name=" + name,
-                                    "search.evaluations=" + std::to_string(evaluations),
-                                    "score.name=line_energy",
-                                    "search.refine=false"};
-  };
+  static const auto scored = [](const std::string& score) { return Sampled("sobol", 8, score); };
   static const std::map<std::string, std::vector<std::string>> companions = {
       {"lines.canny_", {"lines.detector=hough"}},
-      {"score.line_energy.", {"score.name=line_energy"}},
-      {"score.oriented_chamfer.", {"score.name=oriented_chamfer"}},
-      {"score.gradient.", {"score.name=gradient"}},
-      {"score.unexplained.", {"score.name=unexplained"}},
-      {"score.zbuffer_hough.", {"score.name=line_energy_zbuffer"}},
-      {"score.skyline.", {"score.name=skyline_l1"}},
-      {"score.skyline_l1.", {"score.name=skyline_l1"}},
-      {"search.evaluations", named("sobol", 20)},
-      {"search.sampler.", named("sobol", 20)},
-      {"search.sampler.tpe.", named("tpe", 40)},
-      {"search.sampler.gp.", named("gp", 40)},
-      {"search.sampler.cmaes.", named("cmaes", 200)},
-      {"search.sampler.de.", named("de", 200)},
-      {"search.sampler.gp_de.", named("gp_de", 30)},
-      {"search.sampler.nelder_mead.", named("nelder_mead", 60)},
-      {"search.sampler.grid.", named("grid", 300)},
-      {"search.sampler.multi_start.", named("multi_start", 100)},
+      {"score.line_energy.", scored("line_energy")},
+      {"score.oriented_chamfer.", scored("oriented_chamfer")},
+      {"score.gradient.", scored("gradient")},
+      {"score.unexplained.", scored("unexplained")},
+      {"score.zbuffer_hough.", scored("line_energy_zbuffer")},
+      {"score.skyline.", scored("skyline_l1")},
+      {"score.skyline_l1.", scored("skyline_l1")},
+      {"search.evaluations", Sampled("sobol", 20)},
+      {"search.sampler.", Sampled("sobol", 20)},
+      {"search.sampler.tpe.", Sampled("tpe", 40)},
+      {"search.sampler.gp.", Sampled("gp", 40)},
+      {"search.sampler.cmaes.", Sampled("cmaes", 200)},
+      {"search.sampler.de.", Sampled("de", 200)},
+      {"search.sampler.gp_de.", Sampled("gp_de", 30)},
+      {"search.sampler.nelder_mead.", Sampled("nelder_mead", 60)},
+      {"search.sampler.grid.", Sampled("grid", 300)},
+      {"search.sampler.multi_start.", Sampled("multi_start", 100)},
       {"search.fit.", {"search.refinement=fit"}}};
   return companions;
 }
@@ -57,10 +69,13 @@ const std::map<std::string, std::vector<std::string>>& Companions() {
 const std::map<std::string, std::string>& Values() {
   static const std::map<std::string, std::string> values = {
       {"lines.detector", "edlines"},
+      {"projection.max_distance_m", "30"},
       {"score.name", "line_energy"},
       {"score.weights", "[1,1,1,1,1,1,1,1,1]"},
+      {"score.evidence.work_size_px", "200"},
       {"score.evidence.lines.seen_share", "[0.3,0.3,0.3,0.3,0.3]"},
       {"score.evidence.facades.max_lines", "3"},
+      {"score.zbuffer_hough.radius_m", "30"},
       {"search.method", "sampler"},
       {"search.refinement", "fit"},
       {"search.map.max_positions", "5"},
@@ -68,7 +83,8 @@ const std::map<std::string, std::string>& Values() {
       {"search.map.modes", "1"},
       {"search.sampler.name", "random"},
       {"search.sampler.nelder_mead.steps", "[0.3]"},
-      {"search.sampler.nelder_mead.groups", "[\"east_m\",\"*\"]"}};
+      {"search.sampler.nelder_mead.groups", "[\"east_m\",\"*\"]"},
+      {"confidence.abstain_below", "1"}};
   return values;
 }
 
@@ -114,9 +130,7 @@ class SetKeys : public ::testing::Test {
                                       "street_000",
                                       "--prior",
                                       (folder_ / "prior.json").string()};
-    for (const char* small : {"search.east_m=4", "search.north_m=4", "search.heading_deg=6"}) {
-      words.insert(words.end(), {"--set", small});
-    }
+    for (const std::string& assignment : kSmall) words.insert(words.end(), {"--set", assignment});
     for (const std::string& assignment : assignments) {
       words.insert(words.end(), {"--set", assignment});
     }
