@@ -12,12 +12,18 @@ python3-numpy and python3-scipy.
 
 import argparse
 import csv
+import json
 import pathlib
 
 import numpy as np
 from scipy.stats import beta
 
 RIDGE = 0.3
+
+
+def elsewhere(folder):
+    summary = folder / "summary.json"
+    return summary.is_file() and json.loads(summary.read_text())["protocol"] == "elsewhere"
 
 
 def read(paths):
@@ -27,6 +33,9 @@ def read(paths):
         for file in files:
             with open(file, newline="") as text:
                 for row in csv.DictReader(text):
+                    # Searched in another place, no pose is right, and there is no error to write.
+                    if not row["candidate_t_err_m"] and elsewhere(file.parent):
+                        row.update(candidate_t_err_m="inf", candidate_r_err_deg="inf")
                     if row["candidate_t_err_m"]:
                         rows.append({"run": file.parent.name, **row})
     return rows

@@ -26,8 +26,8 @@ struct ConfidenceOptions {
   double doubtful_below = 0.6;
   // That an answer is within 2 m and 2 degrees, and that it is off by more than 5 m or 5 degrees;
   // for scores that judge no buildings the confidence is the posterior mass.
-  OutcomeModel right{-7.0, 0.6, 6.0, 0.25};
-  OutcomeModel gross{3.0, -0.4, -5.0, -0.4};
+  OutcomeModel right{-6.33, 0.55, 1.68, 0.39};
+  OutcomeModel gross{8.07, -0.54, -3.08, -0.46};
   // Answers whose protection level is above this are withheld [m]; 0: none are.
   double alert_limit_m = 0.0;
   // Widens the posterior, since samples of a picture are correlated.

@@ -189,6 +189,8 @@ Localization Localizer::Localize(const LocalizationInput& input,
                      TooFewLines(picture.segments().size()));
   }
 
+  // A sampler keeps to its box and its evaluations.
+  const int widenings = options.search.method == "map" ? options.search.widenings : 0;
   PoseSpaceOptions box = ranges;
   for (int widening = 0;; ++widening) {
     // Search: over all of the admissible box; refine what is found.
@@ -201,7 +203,7 @@ Localization Localizer::Localize(const LocalizationInput& input,
     lap("search");
 
     // Believe: as much as the evidence carries; look further where it carries nothing.
-    const bool is_last = widening == options.search.widenings;
+    const bool is_last = widening == widenings;
     if (found.modes.empty() && is_last) {
       return Abstained(
           std::move(result), LocalizationStatus::kNoVisibleModel, NoVisibleModel(*score));

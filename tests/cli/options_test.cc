@@ -60,6 +60,7 @@ const std::map<std::string, std::string>& Bases() {
       {"synth",
        "synth --out {out}/t --size 64x64 --queries 0 --tilted 0 --portrait 0 --drone 0" +
            kOneBlock},
+      {"options", "options"},
       {"completion", "completion bash"}};
   return bases;
 }
@@ -87,6 +88,9 @@ const std::map<std::string, std::map<std::string, std::string>>& Cases() {
        {{"dataset", "--=bench {in}/none.json"},
         {"--out", "--out {out}/other"},
         {"--perturb", "--perturb 1,1,0,2"},
+        {"--protocol", "--protocol known-tilt"},
+        {"--world", "--world {town}/dataset.json"},
+        {"--no-report", "--no-report"},
         {"--seed", "--seed 2"},
         {"--seeds", "--seeds 2"},
         {"--score-only", "--score-only {in}/poses.csv"},
@@ -102,6 +106,7 @@ const std::map<std::string, std::map<std::string, std::string>>& Cases() {
         {"--out", "--out {out}/other"},
         {"--report", "--report {out}/s.html"},
         {"--perturb", "--perturb 1,1,0,4"},
+        {"--protocol", "--protocol known-tilt"},
         {"--seed", "--seed 2"},
         {"--classes", "--classes 5"},
         {"--vary", "--vary focal=0,5"},
@@ -189,10 +194,13 @@ const std::map<std::string, std::map<std::string, std::string>>& Cases() {
         {"--portrait", "--portrait 1"},
         {"--drone", "--drone 1"},
         {"--walk", "--walk 2"},
+        {"--layout", "--layout egenioussbench"},
         {"--size", "--size 12by9"},
         {"--buildings", "--buildings 40"},
         {"--set", "--set town.block_m=70"},
         {"--overwrite", "--overwrite --out {in}"}}},
+      {"options",
+       {{"--config", "--config {in}/config.json"}, {"--set", "--set search.heading_deg=5"}}},
       {"completion", {{"what", "--=completion zsh"}, {"--out", "--out {out}"}}}};
   return cases;
 }
@@ -269,7 +277,7 @@ class Options : public ::testing::Test {
     EXPECT_NE(outcome.exit_code, 1) << outcome.text;
     std::string seen = std::to_string(outcome.exit_code) + "\n";
     const std::string& command = words.front();
-    const bool text_is_result = command == "info" || command == "completion";
+    const bool text_is_result = command == "info" || command == "options" || command == "completion";
     if (text_is_result || outcome.exit_code == 2) seen += outcome.text;
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(out_)) {

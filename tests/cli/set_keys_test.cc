@@ -84,7 +84,13 @@ const std::map<std::string, std::string>& Values() {
       {"search.sampler.name", "random"},
       {"search.sampler.nelder_mead.steps", "[0.3]"},
       {"search.sampler.nelder_mead.groups", "[\"east_m\",\"*\"]"},
-      {"confidence.abstain_below", "1"}};
+      {"confidence.abstain_below", "1"},
+      {"confidence.alert_limit_m", "0.001"},
+      // A gross error is out of the question then, and there is a protection level.
+      {"confidence.gross.offset", "-50"},
+      {"confidence.gross.mass", "-50"},
+      {"confidence.gross.explained", "-80"},
+      {"confidence.gross.observed", "-30"}};
   return values;
 }
 
