@@ -34,7 +34,7 @@ void ProjectChunk(std::span<const Eigen::Vector3f> directions,
   const auto cx = static_cast<float>(camera.cx);
   const auto cy = static_cast<float>(camera.cy);
   for (std::size_t i = 0; i < directions.size(); i += 4) {
-    simd::Vec3x4 four;
+    simd::Vec3x4 four = simd::Splat(Eigen::Vector3f::Zero());
     for (std::size_t k = 0; k < 4; ++k) {
       simd::SetLane(four, static_cast<int>(k), directions[std::min(i + k, directions.size() - 1)]);
     }
