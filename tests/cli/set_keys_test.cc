@@ -69,7 +69,8 @@ const std::map<std::string, std::vector<std::string>>& Companions() {
       {"search.sampler.nelder_mead.", Sampled("nelder_mead", 60)},
       {"search.sampler.grid.", With(Sampled("grid", 200), "search.sampler.grid.coarse_points=50")},
       {"search.sampler.multi_start.",
-       With(Sampled("multi_start", 200), "search.sampler.multi_start.first_points=8")},
+       With(With(Sampled("multi_start", 1000), "search.sampler.multi_start.first_points=8"),
+            "search.sampler.multi_start.descents=1")},
       {"search.method", {}},
       // Wide enough to reach into the buildings.
       {"search.free_space",
@@ -98,6 +99,10 @@ const std::map<std::string, std::string>& Values() {
       {"score.skyline_l1.columns", "100"},
       {"score.skyline_l1.min_known_share", "1"},
       {"score.unexplained.max_lines", "5"},
+      {"search.east_m", "0.5"},
+      {"search.north_m", "0.5"},
+      {"search.pitch_deg", "0.5"},
+      {"search.roll_deg", "0.5"},
       {"search.method", "sampler"},
       {"search.refinement", "fit"},
       {"search.map.max_positions", "5"},
@@ -121,8 +126,11 @@ const std::map<std::string, std::string>& Values() {
       {"search.sampler.nelder_mead.steps", "[0.3]"},
       {"search.sampler.nelder_mead.groups", "[\"east_m\",\"*\"]"},
       {"search.sampler.nelder_mead.convergence", "0.9"},
-      {"search.sampler.grid.coarse_points", "100"},
+      {"search.sampler.grid.coarse_points", "300"},
+      {"search.sampler.grid.keep", "1"},
       {"search.sampler.grid.finest", "0.2"},
+      {"search.sampler.multi_start.descents", "4"},
+      {"search.sampler.de.variant", "3"},
       {"confidence.abstain_below", "1"}};
   return values;
 }
