@@ -93,7 +93,7 @@ const std::map<std::string, std::string>& Values() {
       {"score.zbuffer_hough.radius_m", "30"},
       {"score.skyline.work_width_px", "200"},
       {"score.skyline.sky.work_width_px", "100"},
-      {"score.skyline.sky.rounds", "1"},
+      {"score.skyline.sky.rounds", "0"},
       {"score.skyline_l1.max_deviation_px", "1"},
       {"score.skyline_l1.max_obstructed_px", "1"},
       {"score.skyline_l1.columns", "100"},
