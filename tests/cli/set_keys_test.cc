@@ -75,7 +75,16 @@ const std::map<std::string, std::vector<std::string>>& Companions() {
       // Wide enough to reach into the buildings.
       {"search.free_space",
        With(With(Sampled("sobol", 20), "search.east_m=40"), "search.north_m=40")},
-      {"search.fit.", {kFewModes, "search.refinement=fit"}}};
+      {"search.fit.", {kFewModes, "search.refinement=fit"}},
+      // Only lines that are far from their edges have the sky on their darker side here.
+      {"search.fit.matches.dark_sky_factor",
+       {kFewModes,
+        "search.refinement=fit",
+        "search.fit.matches.max_sigmas=20",
+        "search.fit.matches.max_angle_deg=20",
+        "search.fit.max_loss=1000",
+        "search.fit.max_move_m=5",
+        "search.fit.max_turn_deg=9"}}};
   return companions;
 }
 
@@ -110,6 +119,7 @@ const std::map<std::string, std::string>& Values() {
       {"search.map.modes", "1"},
       {"search.map.mode_separation_m", "4"},
       {"search.map.mode_separation_deg", "0.1"},
+      {"search.fit.matches.dark_sky_factor", "0.01"},
       {"search.fit.max_rounds", "1"},
       {"search.fit.max_move_m", "0.01"},
       {"search.fit.max_turn_deg", "0.01"},
