@@ -95,6 +95,15 @@ fs::path InEgenioussLayout(const fs::path& town, int seed, const fs::path& out) 
   return folder;
 }
 
+// Both give the size of the town.
+void RefuseBlocksBesideBuildings(const std::vector<std::string>& assignments) {
+  for (const std::string& assignment : assignments) {
+    if (!assignment.starts_with("town.blocks_")) continue;
+    throw InputError(
+        "--buildings", "", "a size of the town beside --set " + assignment, "one of the two");
+  }
+}
+
 int RunSynth(SynthArguments& arguments, const Context& context) {
   TownDatasetOptions& options = arguments.options;
   WalkOptions& walk = arguments.walk;
@@ -106,6 +115,7 @@ int RunSynth(SynthArguments& arguments, const Context& context) {
               is_walk ? walk.height : options.height);
   }
   if (arguments.buildings) {
+    RefuseBlocksBesideBuildings(arguments.set);
     const int side =
         static_cast<int>(std::ceil(std::sqrt(*arguments.buildings / kBuildingsPerBlock)));
     options.town.blocks_east = options.town.blocks_north = std::max(1, side);

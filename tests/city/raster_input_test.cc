@@ -16,6 +16,7 @@
 #include "base/gdal_handles.h"
 #include "city/city_info.h"
 #include "city/city_text.h"
+#include "city/crs.h"
 #include "city/terrain.h"
 
 namespace ridgeline::testing {
@@ -125,7 +126,9 @@ void ExpectTerrainWithHole(const HeightGrid& grid, double dx = 1.0) {
   }
   // Nothing of the hole's value bleeds into its neighbours.
   for (const float height : grid.heights) {
-    if (!std::isnan(height)) ASSERT_GT(height, 105.0f);
+    if (!std::isnan(height)) {
+      ASSERT_GT(height, 105.0f);
+    }
   }
 }
 
@@ -229,7 +232,9 @@ TEST(RasterUnit, OfTheBand) {
         Write(folder, spec, [&](GDALDataset& d) { d.GetRasterBand(1)->SetUnitType(unit.name); }));
     ExpectTerrainWithHole(terrain.grid);
     const std::string said = std::string("heights in the unit ") + unit.name;
-    if (unit.metres != 1.0) EXPECT_THAT(terrain.warnings, Contains(HasSubstr(said)));
+    if (unit.metres != 1.0) {
+      EXPECT_THAT(terrain.warnings, Contains(HasSubstr(said)));
+    }
   }
 }
 

@@ -56,7 +56,7 @@ const std::map<std::string, std::string>& Bases() {
       {"skyline", "skyline --dataset {town}/dataset.json --out {out}/f"},
       {"augment",
        "augment --dataset {town}/dataset.json --query street_000 --building {in}/box.obj --place "
-       "{place} --out {out}/a.png"},
+       "{place} --light-azimuth 60 --out {out}/a.png"},
       {"synth",
        "synth --out {out}/t --size 64x64 --queries 0 --tilted 0 --portrait 0 --drone 0" +
            kOneBlock},
@@ -182,7 +182,7 @@ const std::map<std::string, std::map<std::string, std::string>>& Cases() {
         {"--place", "--place 0"},
         {"--heading", "--heading 30"},
         {"--scale", "--scale 0.5"},
-        {"--light-azimuth", "--light-azimuth 10"},
+        {"--light-azimuth", "--light-azimuth 90"},
         {"--light-elevation", "--light-elevation 80"},
         {"--opacity", "--opacity 0.5"},
         {"--out", "--out {out}/other.png"}}},

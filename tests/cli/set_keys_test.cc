@@ -20,13 +20,15 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// Every run: a small box, and few modes to refine.
+// Every run: a small box.
 const std::vector<std::string> kSmall = {"search.east_m=2",
                                          "search.north_m=2",
                                          "search.heading_deg=3",
                                          "search.pitch_deg=2",
-                                         "search.roll_deg=2",
-                                         "search.map.modes=3"};
+                                         "search.roll_deg=2"};
+
+// A map of which few modes are refined.
+const std::string kFewModes = "search.map.modes=3";
 
 // A search by a sampler, on a cheap score unless told otherwise.
 std::vector<std::string> Sampled(const std::string& sampler,
@@ -39,11 +41,17 @@ std::vector<std::string> Sampled(const std::string& sampler,
           "search.refine=false"};
 }
 
+std::vector<std::string> With(std::vector<std::string> assignments, const std::string& one) {
+  assignments.push_back(one);
+  return assignments;
+}
+
 // What makes the keys below a prefix work; the longest prefix counts.
 const std::map<std::string, std::vector<std::string>>& Companions() {
   static const auto scored = [](const std::string& score) { return Sampled("sobol", 8, score); };
   static const std::map<std::string, std::vector<std::string>> companions = {
-      {"lines.canny_", {"lines.detector=hough"}},
+      {"", {kFewModes}},
+      {"lines.canny_", {kFewModes, "lines.detector=hough"}},
       {"score.line_energy.", scored("line_energy")},
       {"score.oriented_chamfer.", scored("oriented_chamfer")},
       {"score.gradient.", scored("gradient")},
@@ -59,13 +67,29 @@ const std::map<std::string, std::vector<std::string>>& Companions() {
       {"search.sampler.de.", Sampled("de", 200)},
       {"search.sampler.gp_de.", Sampled("gp_de", 30)},
       {"search.sampler.nelder_mead.", Sampled("nelder_mead", 60)},
-      {"search.sampler.grid.", Sampled("grid", 300)},
-      {"search.sampler.multi_start.", Sampled("multi_start", 100)},
-      {"search.fit.", {"search.refinement=fit"}}};
+      {"search.sampler.grid.", With(Sampled("grid", 200), "search.sampler.grid.coarse_points=50")},
+      {"search.sampler.multi_start.",
+       With(With(Sampled("multi_start", 1000), "search.sampler.multi_start.first_points=8"),
+            "search.sampler.multi_start.descents=1")},
+      {"search.method", {}},
+      // Wide enough to reach into the buildings.
+      {"search.free_space",
+       With(With(Sampled("sobol", 20), "search.east_m=40"), "search.north_m=40")},
+      {"search.fit.", {kFewModes, "search.refinement=fit"}},
+      // Only lines that are far from their edges have the sky on their darker side here.
+      {"search.fit.matches.dark_sky_factor",
+       {kFewModes,
+        "search.refinement=fit",
+        "search.fit.matches.max_sigmas=20",
+        "search.fit.matches.max_angle_deg=20",
+        "search.fit.max_loss=1000",
+        "search.fit.max_move_m=5",
+        "search.fit.max_turn_deg=9"}}};
   return companions;
 }
 
-// Values for keys that half as much again, twice and one more, or the opposite do not suit.
+// Values for keys that half as much again, twice and one more, or the opposite do not suit, such as
+// limits that must bind.
 const std::map<std::string, std::string>& Values() {
   static const std::map<std::string, std::string> values = {
       {"lines.detector", "edlines"},
@@ -76,14 +100,47 @@ const std::map<std::string, std::string>& Values() {
       {"score.evidence.lines.seen_share", "[0.3,0.3,0.3,0.3,0.3]"},
       {"score.evidence.facades.max_lines", "3"},
       {"score.zbuffer_hough.radius_m", "30"},
+      {"score.skyline.work_width_px", "200"},
+      {"score.skyline.sky.work_width_px", "100"},
+      {"score.skyline.sky.rounds", "0"},
+      {"score.skyline_l1.max_deviation_px", "1"},
+      {"score.skyline_l1.max_obstructed_px", "1"},
+      {"score.skyline_l1.columns", "100"},
+      {"score.skyline_l1.min_known_share", "1"},
+      {"score.unexplained.max_lines", "5"},
+      {"search.east_m", "0.5"},
+      {"search.north_m", "0.5"},
+      {"search.pitch_deg", "0.5"},
+      {"search.roll_deg", "0.5"},
       {"search.method", "sampler"},
       {"search.refinement", "fit"},
       {"search.map.max_positions", "5"},
       {"search.map.tilts", "1"},
       {"search.map.modes", "1"},
+      {"search.map.mode_separation_m", "4"},
+      {"search.map.mode_separation_deg", "0.1"},
+      {"search.fit.matches.dark_sky_factor", "0.01"},
+      {"search.fit.max_rounds", "1"},
+      {"search.fit.max_move_m", "0.01"},
+      {"search.fit.max_turn_deg", "0.01"},
+      {"search.fit.max_loss", "1e-6"},
       {"search.sampler.name", "random"},
+      {"search.sampler.tpe.good_max", "1"},
+      {"search.sampler.gp.max_points", "20"},
+      {"search.sampler.gp.refit_growth", "2"},
+      {"search.sampler.cmaes.ftol", "0.5"},
+      {"search.sampler.cmaes.xtol", "1"},
+      {"search.sampler.de.ftol", "0.5"},
+      {"search.sampler.de.xtol", "1"},
+      {"search.sampler.gp_de.gp_trials", "15"},
       {"search.sampler.nelder_mead.steps", "[0.3]"},
       {"search.sampler.nelder_mead.groups", "[\"east_m\",\"*\"]"},
+      {"search.sampler.nelder_mead.convergence", "0.9"},
+      {"search.sampler.grid.coarse_points", "300"},
+      {"search.sampler.grid.keep", "1"},
+      {"search.sampler.grid.finest", "0.2"},
+      {"search.sampler.multi_start.descents", "4"},
+      {"search.sampler.de.variant", "3"},
       {"confidence.abstain_below", "1"},
       {"confidence.alert_limit_m", "0.001"},
       // A gross error is out of the question then, and there is a protection level.
@@ -108,8 +165,7 @@ std::string ValueOf(const std::string& key, const Json& value) {
 }
 
 const std::vector<std::string>& CompanionsOf(const std::string& key) {
-  static const std::vector<std::string> none;
-  const std::vector<std::string>* best = &none;
+  const std::vector<std::string>* best = nullptr;
   for (const auto& [prefix, companions] : Companions()) {  // in order: longer ones later
     if (key.starts_with(prefix)) best = &companions;
   }
