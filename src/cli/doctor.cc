@@ -118,11 +118,12 @@ Check SelfTest(int threads) {
   WriteTownDataset(town, folder, threads, [](std::size_t, std::size_t) {});
   const Dataset dataset = ReadDataset(folder / "dataset.json");
   const World world = ReadWorld(dataset, 50.0);
-  const Localizer localizer(world.model, world.dtm, LocalizerOptions{});
+  const LocalizerOptions options;
+  const Localizer localizer(world.model, world.dtm, options);
   BenchOptions bench;
   bench.threads = threads;
-  const auto runs =
-      RunBench(BenchQueries(dataset), localizer, bench, [](const BenchRun&, std::size_t, std::size_t) {});
+  const auto runs = RunBench(
+      BenchQueries(dataset), localizer, bench, [](const BenchRun&, std::size_t, std::size_t) {});
   RemoveTemporaries();
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
