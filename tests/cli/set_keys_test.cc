@@ -75,7 +75,9 @@ const std::map<std::string, std::vector<std::string>>& Companions() {
       // Wide enough to reach into the buildings.
       {"search.free_space",
        With(With(Sampled("sobol", 20), "search.east_m=40"), "search.north_m=40")},
-      {"search.fit.", {kFewModes, "search.refinement=fit"}},
+      // Fine enough for a mode that the fit improves.
+      {"search.refinement", {kFewModes, "search.map.spacing_m=0.5"}},
+      {"search.fit.", {kFewModes, "search.refinement=fit", "search.fit.max_loss=10"}},
       // Only lines that are far from their edges have the sky on their darker side here.
       {"search.fit.matches.dark_sky_factor",
        {kFewModes,
