@@ -38,6 +38,15 @@ bool IsColour(GDALColorInterp meaning) {
   return meaning >= GCI_RedBand && meaning <= GCI_YCbCr_CrBand && meaning != GCI_AlphaBand;
 }
 
+// GDAL makes a mask of alpha bands of bytes and 16 bits only; beside heights it is often a float.
+GDALRasterBand* AlphaBandOf(GDALDataset& dataset) {
+  for (int b = 2; b <= dataset.GetRasterCount(); ++b) {
+    GDALRasterBand* const band = dataset.GetRasterBand(b);
+    if (band->GetColorInterpretation() == GCI_AlphaBand) return band;
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 RasterValues::RasterValues(GDALDataset& dataset, const std::string& file, double metres_per_unit)
@@ -47,7 +56,11 @@ RasterValues::RasterValues(GDALDataset& dataset, const std::string& file, double
   has_nodata_ = has_nodata != 0;
   scale_ = band_.GetScale();
   offset_ = band_.GetOffset();
-  if ((band_.GetMaskFlags() & GMF_ALL_VALID) == 0) mask_ = band_.GetMaskBand();
+  if ((band_.GetMaskFlags() & GMF_ALL_VALID) == 0) {
+    mask_ = band_.GetMaskBand();
+  } else {
+    mask_ = AlphaBandOf(dataset);
+  }
   switch (band_.GetRasterDataType()) {
     case GDT_Int16:
       lowest_integer_ = std::numeric_limits<std::int16_t>::min();

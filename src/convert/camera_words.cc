@@ -4,6 +4,7 @@
 #include <cctype>
 #include <charconv>
 #include <set>
+#include <utility>
 #include <system_error>
 
 namespace ridgeline {
@@ -67,8 +68,11 @@ const std::vector<Meaning>& Meanings() {
 
 KeyedLine ParseKeyedLine(const std::string& text) {
   KeyedLine keyed;
+  bool follows_times = false;  // "960x1280", "9.8x7.3mm"
   for (std::size_t at = 0; at < text.size();) {
-    if (StartsNumber(text, at)) {
+    const bool is_factor = std::exchange(follows_times, false) &&
+                           std::isdigit(static_cast<unsigned char>(text[at])) != 0;
+    if (is_factor || StartsNumber(text, at)) {
       const std::size_t from = text[at] == '+' ? at + 1 : at;
       double value = 0.0;
       const auto [end, error] =
@@ -76,8 +80,8 @@ KeyedLine ParseKeyedLine(const std::string& text) {
       if (error == std::errc()) {
         keyed.values.push_back(value);
         at = static_cast<std::size_t>(end - text.data());
-        // "960x1280", "9.8x7.3mm"
-        if (at < text.size() && (text[at] == 'x' || text[at] == 'X')) ++at;
+        follows_times = at < text.size() && (text[at] == 'x' || text[at] == 'X');
+        if (follows_times) ++at;
         continue;
       }
     }
