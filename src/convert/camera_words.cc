@@ -4,8 +4,8 @@
 #include <cctype>
 #include <charconv>
 #include <set>
-#include <utility>
 #include <system_error>
+#include <utility>
 
 namespace ridgeline {
 namespace {
