@@ -11,6 +11,7 @@
 
 #include "base/atomic_file.h"
 #include "base/options.h"
+#include "camera/pose.h"
 #include "cli/in_process.h"
 #include "localize/localizer_options.h"
 
@@ -25,7 +26,8 @@ const std::vector<std::string> kSmall = {"search.east_m=2",
                                          "search.north_m=2",
                                          "search.heading_deg=3",
                                          "search.pitch_deg=2",
-                                         "search.roll_deg=2"};
+                                         "search.roll_deg=2",
+                                         "search.widenings=0"};
 
 // A map of which few modes are refined.
 const std::string kFewModes = "search.map.modes=3";
@@ -59,6 +61,14 @@ const std::map<std::string, std::vector<std::string>>& Companions() {
       {"score.zbuffer_hough.", scored("line_energy_zbuffer")},
       {"score.skyline.", scored("skyline_l1")},
       {"score.skyline_l1.", scored("skyline_l1")},
+      // The fit is kept then.
+      {"search.refinement",
+       {kFewModes,
+        "search.fit.max_loss=1000",
+        "search.fit.max_move_m=5",
+        "search.fit.max_turn_deg=10"}},
+      // The answer lies on a limit then.
+      {"search.widenings", {kFewModes, "search.east_m=0.2", "search.north_m=0.2"}},
       {"search.evaluations", Sampled("sobol", 20)},
       {"search.sampler.", Sampled("sobol", 20)},
       {"search.sampler.tpe.", Sampled("tpe", 40)},
@@ -67,7 +77,11 @@ const std::map<std::string, std::vector<std::string>>& Companions() {
       {"search.sampler.de.", Sampled("de", 200)},
       {"search.sampler.gp_de.", Sampled("gp_de", 30)},
       {"search.sampler.nelder_mead.", Sampled("nelder_mead", 60)},
-      {"search.sampler.grid.", With(Sampled("grid", 200), "search.sampler.grid.coarse_points=50")},
+      // In few dimensions, so that the grids differ.
+      {"search.sampler.grid.",
+       With(With(With(Sampled("grid", 400), "search.sampler.grid.coarse_points=50"),
+                 "search.pitch_deg=0"),
+            "search.roll_deg=0")},
       {"search.sampler.multi_start.",
        With(With(Sampled("multi_start", 1000), "search.sampler.multi_start.first_points=8"),
             "search.sampler.multi_start.descents=1")},
@@ -144,6 +158,10 @@ const std::map<std::string, std::string>& Values() {
       {"search.sampler.multi_start.descents", "4"},
       {"search.sampler.de.variant", "3"},
       {"confidence.abstain_below", "1"},
+      {"search.widenings", "1"},
+      {"search.height_m", "1.5"},
+      {"search.camera_height_range_m", "0.01"},
+      {"confidence.doubtful_below", "1"},
       {"confidence.alert_limit_m", "0.001"},
       // A gross error is out of the question then, and there is a protection level.
       {"confidence.gross.offset", "-50"},
@@ -180,7 +198,12 @@ class SetKeys : public ::testing::Test {
     const Json dataset = Json::parse(ReadFile(Town() / "dataset.json"));
     const Json& query = dataset["queries"][0];
     const std::vector<double> p = query["truth"]["position"];
+    const std::vector<double> q = query["truth"]["cam_from_world_wxyz"];
+    const ViewAngles view = ViewAnglesOf(Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
     Json prior = query["prior"];
+    prior["heading_deg"] = WrapHeadingDeg(view.heading_deg + 1.0);
+    prior["pitch_deg"] = view.pitch_deg + 0.5;
+    prior["roll_deg"] = view.roll_deg - 0.5;
     prior["position"] = {p[0] + 1.0, p[1] - 1.0};  // no height: the terrain's
     WriteFileAtomically(folder_ / "prior.json", prior.dump());
   }
