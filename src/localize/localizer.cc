@@ -64,6 +64,7 @@ void CheckInput(const LocalizationInput& input, const CityModel& model) {
 Localization Abstained(Localization result, LocalizationStatus status, std::string reason) {
   result.status = status;
   result.reason = std::move(reason);
+  result.pose.reset();  // a smaller box may have had one
   return result;
 }
 
