@@ -14,8 +14,8 @@ namespace {
 constexpr float kNone = -std::numeric_limits<float>::infinity();
 // Poses this far below the best [nat] are not looked at closely.
 constexpr float kMargin = 15.0f;
-// Places and headings first looked at lie no farther apart than this, or as far as in the volume.
-constexpr double kCoarseM = 3.5;
+// Places and headings first looked at lie about this far apart, or as far as in the volume.
+constexpr double kCoarseM = 3.4;
 constexpr double kCoarseDeg = 2.0;
 
 // One axis of the volume and which of its places are looked at first: the middles of runs of
@@ -27,7 +27,7 @@ class Axis {
   Axis(const std::vector<double>& places, double coarse_step, bool is_circle)
       : is_circle_(is_circle) {
     if (places.size() > 1) {
-      stride_ = std::max(1, static_cast<int>(coarse_step / (places[1] - places[0]) + 1e-9));
+      stride_ = std::max(1, static_cast<int>(std::lround(coarse_step / (places[1] - places[0]))));
     }
     const auto stride = static_cast<std::size_t>(stride_);
     for (std::size_t run = 0; run < places.size(); run += stride) {

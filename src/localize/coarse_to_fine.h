@@ -20,7 +20,7 @@ PoseVolume ComputeVolumeCoarseToFine(const PoseScorer& tolerant,
                                      const MapOptions& options,
                                      int threads);
 
-// Most distance [m] of the places first looked at.
+// Distance [m] of the places first looked at.
 double CoarseSpacingOf(const PoseSpaceOptions& ranges, const MapOptions& options);
 
 }  // namespace ridgeline
