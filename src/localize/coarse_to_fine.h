@@ -20,6 +20,9 @@ PoseVolume ComputeVolumeCoarseToFine(const PoseScorer& tolerant,
                                      const MapOptions& options,
                                      int threads);
 
+// Between the headings first looked at [deg].
+inline constexpr double kFirstHeadingStepDeg = 2.0;
+
 // Distance [m] of the places first looked at.
 double CoarseSpacingOf(const PoseSpaceOptions& ranges, const MapOptions& options);
 

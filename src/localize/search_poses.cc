@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "localize/background.h"
 #include "localize/coarse_to_fine.h"
 #include "localize/gravity.h"
 #include "localize/refine_pose.h"
@@ -14,6 +15,9 @@
 
 namespace ridgeline {
 namespace {
+
+// As many as a phone's box has in the first look, or half of them.
+constexpr int kBackgroundPlaces = 64;
 
 // Refines the first `count` modes, until those that are left could not become the best by gaining
 // half as much again as the most any has gained.
@@ -65,19 +69,33 @@ std::unique_ptr<Score> TolerantOf(const PoseScorer& scorer, const MapOptions& op
 }
 
 // The poses of MapPoses() that can be the best or count beside it.
-PoseVolume MapLikelyPoses(const PoseScorer& scorer,
-                          const PictureEvidence& picture,
-                          const MapOptions& options,
-                          int threads) {
+SearchedPoses SearchMap(const PoseScorer& scorer,
+                        const PictureEvidence& picture,
+                        const MapOptions& options,
+                        int threads) {
+  SearchedPoses found;
+  found.spacing_m = SpacingOf(scorer.space().ranges(), options);
   const std::unique_ptr<Score> coarse =
       scorer.score().Tolerant(std::max(1.0, CoarseSpacingOf(scorer.space().ranges(), options)));
-  if (!coarse) return MapPoses(scorer, picture, options, threads);
+  if (!coarse) {
+    found.volume = MapPoses(scorer, picture, options, threads);
+    found.evaluations = found.volume->evaluations;
+    return found;
+  }
   const std::unique_ptr<Score> tolerant = TolerantOf(scorer, options);
-  return ComputeVolumeCoarseToFine(scorer.With(*coarse),
-                                   tolerant ? scorer.With(*tolerant) : scorer,
-                                   TiltsOf(scorer, picture, options),
-                                   options,
-                                   threads);
+  const PoseScorer first = scorer.With(*coarse);
+  const std::vector<Tilt> tilts = TiltsOf(scorer, picture, options);
+  found.volume = ComputeVolumeCoarseToFine(
+      first, tolerant ? scorer.With(*tolerant) : scorer, tilts, options, threads);
+  const Background background =
+      BackgroundOf(first, tilts, kFirstHeadingStepDeg, kBackgroundPlaces, threads);
+  if (!background.log_ratios.empty()) {
+    found.above_background =
+        found.volume->highest_first -
+        *std::max_element(background.log_ratios.begin(), background.log_ratios.end());
+  }
+  found.evaluations = found.volume->evaluations + background.evaluations;
+  return found;
 }
 
 }  // namespace
@@ -100,9 +118,7 @@ SearchedPoses SearchPoses(const PoseScorer& scorer,
                           int threads) {
   SearchedPoses found;
   if (options.method == "map") {
-    found.volume = MapLikelyPoses(scorer, picture, options.map, threads);
-    found.spacing_m = SpacingOf(scorer.space().ranges(), options.map);
-    found.evaluations = found.volume->evaluations;
+    found = SearchMap(scorer, picture, options.map, threads);
     found.modes = FindModes(*found.volume, scorer.space(), options.map);
   } else {
     SampledSearch search = SampleSearch(scorer, options, seed, threads);
