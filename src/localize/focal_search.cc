@@ -47,10 +47,8 @@ class Trials {
 };
 
 constexpr int kMostDeviations = 2;
-
-void KeepBetter(Attempt& best, Attempt other) {
-  if (other.log_posterior > best.log_posterior) best = std::move(other);
-}
+// The best of two searches is better than one by chance: another focal length has to gain this.
+constexpr double kLeastGainNat = 3.0;
 
 std::string Words(double focal_px, std::size_t readings, double scale_of_reading) {
   char text[160];
@@ -76,8 +74,9 @@ Localization WithBestFocal(const PictureEvidence& picture,
   const FocalHypothesis* reading = &hypotheses.front();
   for (std::size_t i = 1; i < hypotheses.size(); ++i) {
     Attempt attempt = trials.At(hypotheses[i].focal_px / own_px, 0.0);
-    if (attempt.log_posterior > best.log_posterior) reading = &hypotheses[i];
-    KeepBetter(best, std::move(attempt));
+    if (attempt.log_posterior < best.log_posterior + kLeastGainNat) continue;
+    reading = &hypotheses[i];
+    best = std::move(attempt);
   }
   const double read_scale = best.scale;
   const double sigma = reading->sigma_percent / 100.0;
@@ -85,9 +84,8 @@ Localization WithBestFocal(const PictureEvidence& picture,
     if (sigma <= 0.0 || best.scale != read_scale) break;
     for (int k = 1; k <= kMostDeviations; ++k) {
       Attempt attempt = trials.At(read_scale * std::exp(direction * k * sigma), k);
-      const bool is_better = attempt.log_posterior > best.log_posterior;
-      KeepBetter(best, std::move(attempt));
-      if (!is_better) break;
+      if (attempt.log_posterior < best.log_posterior + kLeastGainNat) break;
+      best = std::move(attempt);
     }
   }
   Localization result = std::move(best.result);

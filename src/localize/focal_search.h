@@ -10,9 +10,10 @@
 
 namespace ridgeline {
 
-// Localizes with every focal length that a picture may have, and keeps the answer that explains the
-// picture best (highest log likelihood ratio, with the doubt of the focal length as its prior). The
-// best reading is then tried one standard deviation up and down, and on in the better direction.
+// Localizes with every focal length that a picture may have, the most plausible first, and takes
+// another where it explains the picture better by three nats (log likelihood ratio, with the doubt
+// of the focal length as its prior). The reading taken is then tried one standard deviation up and
+// down, and on in the better direction.
 //
 // @param hypotheses  The first is that of the picture's camera; empty: it is known, one search.
 Localization WithBestFocal(const PictureEvidence& picture,

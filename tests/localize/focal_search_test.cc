@@ -53,14 +53,14 @@ TEST_F(FocalSearch, ThePictureDecidesBetweenReadings) {
 }
 
 TEST_F(FocalSearch, AReadingIsFollowedWithinItsDoubt) {
-  const Localization found = Run({{500.0, 3.0, "a"}}, 530.0);
+  const Localization found = Run({{500.0, 3.0, "a"}}, 545.0);
   EXPECT_NEAR(*found.focal_px, 500.0 * std::exp(0.06), 1e-9) << "two standard deviations up";
-  EXPECT_GT(Run({{500.0, 3.0, "a"}}, 470.0).focal_px, 460.0);
+  EXPECT_NEAR(*Run({{500.0, 3.0, "a"}}, 460.0).focal_px, 500.0 * std::exp(-0.06), 1e-9);
 }
 
 TEST_F(FocalSearch, ASmallGainDoesNotOutweighTheDoubt) {
-  // Half a per cent is a sixth of a standard deviation; one up would be worse than none.
-  EXPECT_EQ(Run({{500.0, 3.0, "a"}}, 502.5).focal_px, 500.0);
+  // One per cent too short costs 0.4 nat here.
+  EXPECT_EQ(Run({{500.0, 3.0, "a"}}, 505.0).focal_px, 500.0);
 }
 
 }  // namespace
