@@ -57,27 +57,52 @@ std::vector<Tilt> TiltsOf(const PoseScorer& scorer,
                    options.tilts);
 }
 
-// Between the places of a wide grid the model's edges are off by as much as the model errs. Null:
-// the score as it is.
-std::unique_ptr<Score> TolerantOf(const PoseScorer& scorer, const MapOptions& options) {
-  const double spacing_m = SpacingOf(scorer.space().ranges(), options);
-  return spacing_m > 1.0 ? scorer.score().Tolerant(spacing_m) : nullptr;
+std::vector<Eigen::Matrix3f> RotationsOf(std::span<const Tilt> tilts) {
+  std::vector<Eigen::Matrix3f> cam_from_level;
+  for (const Tilt& tilt : tilts) {
+    cam_from_level.push_back(CamFromWorld(ViewAngles{0.0, tilt.pitch_deg, tilt.roll_deg})
+                                 .toRotationMatrix()
+                                 .cast<float>());
+  }
+  return cam_from_level;
 }
+
+// A score as a map uses it, quick under the map's tilts. Between the places of a wide grid the
+// model's edges are off by as much as the model errs: there the tolerance is wider.
+class MapScore {
+ public:
+  // @param tolerance  By which the model's errors grow; 1 or less: as they are.
+  MapScore(const Score& score, double tolerance, std::span<const Tilt> tilts) : score_(&score) {
+    if (tolerance > 1.0) Take(tolerant_, score.Tolerant(tolerance));
+    Take(quick_, score_->ForTilts(RotationsOf(tilts)));
+  }
+
+  const Score& operator*() const { return *score_; }
+  bool is_tolerant() const { return tolerant_ != nullptr; }
+
+ private:
+  void Take(std::unique_ptr<Score>& place, std::unique_ptr<Score> score) {
+    place = std::move(score);
+    if (place) score_ = place.get();
+  }
+
+  const Score* score_;
+  std::unique_ptr<Score> tolerant_;
+  std::unique_ptr<Score> quick_;
+};
 
 // The poses of MapPoses() that can be the best or count beside it.
 PoseVolume MapLikelyPoses(const PoseScorer& scorer,
                           const PictureEvidence& picture,
                           const MapOptions& options,
                           int threads) {
-  const std::unique_ptr<Score> coarse =
-      scorer.score().Tolerant(std::max(1.0, CoarseSpacingOf(scorer.space().ranges(), options)));
-  if (!coarse) return MapPoses(scorer, picture, options, threads);
-  const std::unique_ptr<Score> tolerant = TolerantOf(scorer, options);
-  return ComputeVolumeCoarseToFine(scorer.With(*coarse),
-                                   tolerant ? scorer.With(*tolerant) : scorer,
-                                   TiltsOf(scorer, picture, options),
-                                   options,
-                                   threads);
+  const PoseSpaceOptions& ranges = scorer.space().ranges();
+  const std::vector<Tilt> tilts = TiltsOf(scorer, picture, options);
+  const MapScore coarse(scorer.score(), CoarseSpacingOf(ranges, options), tilts);
+  if (!coarse.is_tolerant()) return MapPoses(scorer, picture, options, threads);
+  const MapScore fine(scorer.score(), SpacingOf(ranges, options), tilts);
+  return ComputeVolumeCoarseToFine(
+      scorer.With(*coarse), scorer.With(*fine), tilts, options, threads);
 }
 
 }  // namespace
@@ -86,11 +111,9 @@ PoseVolume MapPoses(const PoseScorer& scorer,
                     const PictureEvidence& picture,
                     const MapOptions& options,
                     int threads) {
-  const std::unique_ptr<Score> tolerant = TolerantOf(scorer, options);
-  return ComputeVolume(tolerant ? scorer.With(*tolerant) : scorer,
-                       TiltsOf(scorer, picture, options),
-                       options,
-                       threads);
+  const std::vector<Tilt> tilts = TiltsOf(scorer, picture, options);
+  const MapScore score(scorer.score(), SpacingOf(scorer.space().ranges(), options), tilts);
+  return ComputeVolume(scorer.With(*score), tilts, options, threads);
 }
 
 SearchedPoses SearchPoses(const PoseScorer& scorer,
