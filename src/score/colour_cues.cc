@@ -49,9 +49,10 @@ class ColourCues final : public Cue {
   }
 
   // Half as many columns and rows for a coarse grid of places.
-  std::shared_ptr<const Cue> Tolerant(double /*factor*/) const override {
+  std::shared_ptr<const Cue> Tolerant(double factor) const override {
+    constexpr double kWide = 3.0;
     constexpr int kLeastColumns = 24;
-    if (options_.columns < 2 * kLeastColumns) return nullptr;
+    if (factor < kWide || options_.columns < 2 * kLeastColumns) return nullptr;
     const ColourOptions half{options_.columns / 2};
     return std::make_shared<ColourCues>(
         picture_, half, GridOf(picture_, half, 4.0f * grid_.cells), NoTilts());

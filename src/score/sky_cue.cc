@@ -34,9 +34,9 @@ class SkyCue final : public Cue {
         camera_(camera.Scaled(static_cast<double>(table_.columns()) / camera.width)) {}
 
   // Half as many columns, rows and directions for a coarse grid.
-  std::shared_ptr<const Cue> Tolerant(double /*factor*/) const override {
+  std::shared_ptr<const Cue> Tolerant(double factor) const override {
     constexpr int kLeastColumns = 100;
-    if (table_.columns() < 2 * kLeastColumns) return nullptr;
+    if (!(factor > 1.0) || table_.columns() < 2 * kLeastColumns) return nullptr;
     cv::Mat half;
     cv::resize(log_odds_, half, {}, 0.5, 0.5, cv::INTER_AREA);
     SkyTableOptions options = options_;
