@@ -61,32 +61,60 @@ std::vector<Tilt> TiltsOf(const PoseScorer& scorer,
                    options.tilts);
 }
 
-// Between the places of a wide grid the model's edges are off by as much as the model errs. Null:
-// the score as it is.
-std::unique_ptr<Score> TolerantOf(const PoseScorer& scorer, const MapOptions& options) {
-  const double spacing_m = SpacingOf(scorer.space().ranges(), options);
-  return spacing_m > 1.0 ? scorer.score().Tolerant(spacing_m) : nullptr;
+std::vector<Eigen::Matrix3f> RotationsOf(std::span<const Tilt> tilts) {
+  std::vector<Eigen::Matrix3f> cam_from_level;
+  for (const Tilt& tilt : tilts) {
+    cam_from_level.push_back(CamFromWorld(ViewAngles{0.0, tilt.pitch_deg, tilt.roll_deg})
+                                 .toRotationMatrix()
+                                 .cast<float>());
+  }
+  return cam_from_level;
 }
+
+// A score as a map uses it, quick under the map's tilts. Between the places of a wide grid the
+// model's edges are off by as much as the model errs: there the tolerance is wider.
+class MapScore {
+ public:
+  // @param tolerance  By which the model's errors grow; 1 or less: as they are.
+  MapScore(const Score& score, double tolerance, std::span<const Tilt> tilts) : score_(&score) {
+    if (tolerance > 1.0) Take(tolerant_, score.Tolerant(tolerance));
+    Take(quick_, score_->ForTilts(RotationsOf(tilts)));
+  }
+
+  const Score& operator*() const { return *score_; }
+  bool is_tolerant() const { return tolerant_ != nullptr; }
+
+ private:
+  void Take(std::unique_ptr<Score>& place, std::unique_ptr<Score> score) {
+    place = std::move(score);
+    if (place) score_ = place.get();
+  }
+
+  const Score* score_;
+  std::unique_ptr<Score> tolerant_;
+  std::unique_ptr<Score> quick_;
+};
 
 // The poses of MapPoses() that can be the best or count beside it.
 SearchedPoses SearchMap(const PoseScorer& scorer,
                         const PictureEvidence& picture,
                         const MapOptions& options,
                         int threads) {
+  const PoseSpaceOptions& ranges = scorer.space().ranges();
+  const std::vector<Tilt> tilts = TiltsOf(scorer, picture, options);
   SearchedPoses found;
-  found.spacing_m = SpacingOf(scorer.space().ranges(), options);
-  const std::unique_ptr<Score> coarse =
-      scorer.score().Tolerant(std::max(1.0, CoarseSpacingOf(scorer.space().ranges(), options)));
-  if (!coarse) {
+  found.spacing_m = SpacingOf(ranges, options);
+  const MapScore coarse(scorer.score(), CoarseSpacingOf(ranges, options), tilts);
+  if (!coarse.is_tolerant()) {
     found.volume = MapPoses(scorer, picture, options, threads);
     found.evaluations = found.volume->evaluations;
     return found;
   }
-  const std::unique_ptr<Score> tolerant = TolerantOf(scorer, options);
-  const PoseScorer first = scorer.With(*coarse);
-  const std::vector<Tilt> tilts = TiltsOf(scorer, picture, options);
-  found.volume = ComputeVolumeCoarseToFine(
-      first, tolerant ? scorer.With(*tolerant) : scorer, tilts, options, threads);
+  const MapScore fine(scorer.score(), SpacingOf(ranges, options), tilts);
+  // From a place of the first look surfaces lie elsewhere by more than this, in the end.
+  constexpr double kCoarserSurfaces = 2.0;
+  const PoseScorer first = scorer.With(*coarse).Coarser(kCoarserSurfaces);
+  found.volume = ComputeVolumeCoarseToFine(first, scorer.With(*fine), tilts, options, threads);
   const Background background =
       BackgroundOf(first, tilts, kFirstHeadingStepDeg, kBackgroundPlaces, threads);
   if (!background.log_ratios.empty()) {
@@ -104,11 +132,9 @@ PoseVolume MapPoses(const PoseScorer& scorer,
                     const PictureEvidence& picture,
                     const MapOptions& options,
                     int threads) {
-  const std::unique_ptr<Score> tolerant = TolerantOf(scorer, options);
-  return ComputeVolume(tolerant ? scorer.With(*tolerant) : scorer,
-                       TiltsOf(scorer, picture, options),
-                       options,
-                       threads);
+  const std::vector<Tilt> tilts = TiltsOf(scorer, picture, options);
+  const MapScore score(scorer.score(), SpacingOf(scorer.space().ranges(), options), tilts);
+  return ComputeVolume(scorer.With(*score), tilts, options, threads);
 }
 
 SearchedPoses SearchPoses(const PoseScorer& scorer,

@@ -22,21 +22,26 @@ cv::Mat SkyLogOddsOf(const PictureEvidence& picture) {
 
 class SkyCue final : public Cue {
  public:
-  SkyCue(const cv::Mat& log_odds, const PinholeCamera& camera, const SkyTableOptions& options)
+  // @param stride  Of the skyline's directions only every so many-th is looked at.
+  SkyCue(const cv::Mat& log_odds,
+         const PinholeCamera& camera,
+         const SkyTableOptions& options,
+         std::size_t stride)
       : log_odds_(log_odds),
         options_(options),
+        stride_(stride),
         table_(log_odds, options),
         camera_(camera.Scaled(static_cast<double>(table_.columns()) / camera.width)) {}
 
-  // Half as many columns and rows for a coarse grid.
-  std::shared_ptr<const Cue> Tolerant(double /*factor*/) const override {
+  // Half as many columns, rows and directions for a coarse grid.
+  std::shared_ptr<const Cue> Tolerant(double factor) const override {
     constexpr int kLeastColumns = 100;
-    if (table_.columns() < 2 * kLeastColumns) return nullptr;
+    if (!(factor > 1.0) || table_.columns() < 2 * kLeastColumns) return nullptr;
     cv::Mat half;
     cv::resize(log_odds_, half, {}, 0.5, 0.5, cv::INTER_AREA);
     SkyTableOptions options = options_;
     options.pixel_weight *= 2.0;  // a pixel is as high as two
-    return std::make_shared<SkyCue>(half, camera_, options);
+    return std::make_shared<SkyCue>(half, camera_, options, 2 * stride_);
   }
 
   std::unique_ptr<Workspace> NewWorkspace() const override {
@@ -55,7 +60,8 @@ class SkyCue final : public Cue {
                 view.visible.azimuth_step,
                 camera_,
                 pose.cam_from_local,
-                rows);
+                rows,
+                stride_);
     log_ratios[0] = static_cast<float>(SkyLogRatio(table_, rows));
   }
 
@@ -66,6 +72,7 @@ class SkyCue final : public Cue {
 
   cv::Mat log_odds_;
   SkyTableOptions options_;
+  std::size_t stride_;
   SkyTable table_;
   PinholeCamera camera_;
 };
@@ -81,7 +88,7 @@ constinit const CuePlugin kSkyCue = {
     .declare = [](OptionGroups& options) { options.Add<SkyTableOptions>("sky"); },
     .make = [](const CueContext& c) -> std::shared_ptr<const Cue> {
       return std::make_shared<SkyCue>(
-          SkyLogOddsOf(c.picture), c.picture.camera(), c.options.Get<SkyTableOptions>());
+          SkyLogOddsOf(c.picture), c.picture.camera(), c.options.Get<SkyTableOptions>(), 1);
     }};
 
 }  // namespace ridgeline
