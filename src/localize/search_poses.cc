@@ -101,13 +101,8 @@ PoseVolume MapLikelyPoses(const PoseScorer& scorer,
   const MapScore coarse(scorer.score(), CoarseSpacingOf(ranges, options), tilts);
   if (!coarse.is_tolerant()) return MapPoses(scorer, picture, options, threads);
   const MapScore fine(scorer.score(), SpacingOf(ranges, options), tilts);
-  // From a place of the first look surfaces lie elsewhere by more than this, in the end.
-  constexpr double kCoarserSurfaces = 2.0;
-  return ComputeVolumeCoarseToFine(scorer.With(*coarse).Coarser(kCoarserSurfaces),
-                                   scorer.With(*fine),
-                                   tilts,
-                                   options,
-                                   threads);
+  return ComputeVolumeCoarseToFine(
+      scorer.With(*coarse), scorer.With(*fine), tilts, options, threads);
 }
 
 }  // namespace
