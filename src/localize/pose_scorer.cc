@@ -24,12 +24,6 @@ PoseScorer PoseScorer::With(const Score& score) const {
   return other;
 }
 
-PoseScorer PoseScorer::Coarser(double factor) const {
-  PoseScorer other = *this;
-  other.surface_step_rad_ *= factor;
-  return other;
-}
-
 PanoramaRange PoseScorer::RangeAround(const ViewAngles& center,
                                       const ViewAngles& half_ranges) const {
   return RangeOf(*camera_, center, half_ranges, surface_step_rad_);

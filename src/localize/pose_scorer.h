@@ -42,8 +42,6 @@ class PoseScorer {
 
   // The same with another score.
   PoseScorer With(const Score& score) const;
-  // The same where the surfaces seen from a place have a resolution coarser by a factor.
-  PoseScorer Coarser(double factor) const;
 
   const Score& score() const { return *score_; }
   const Scene& scene() const { return *scene_; }

@@ -111,9 +111,7 @@ SearchedPoses SearchMap(const PoseScorer& scorer,
     return found;
   }
   const MapScore fine(scorer.score(), SpacingOf(ranges, options), tilts);
-  // From a place of the first look surfaces lie elsewhere by more than this, in the end.
-  constexpr double kCoarserSurfaces = 2.0;
-  const PoseScorer first = scorer.With(*coarse).Coarser(kCoarserSurfaces);
+  const PoseScorer first = scorer.With(*coarse);
   found.volume = ComputeVolumeCoarseToFine(first, scorer.With(*fine), tilts, options, threads);
   const Background background =
       BackgroundOf(first, tilts, kFirstHeadingStepDeg, kBackgroundPlaces, threads);

@@ -10,29 +10,15 @@
 namespace ridgeline {
 namespace {
 
-// A grid over the picture.
-struct Grid {
-  std::shared_ptr<const ColourInformation> colours;
-  float cells = 1.0f;  // of the grid asked for, that one of it stands for
-};
-
-Grid GridOf(const PictureEvidence& picture, const ColourOptions& options, float cells) {
-  return {std::make_shared<ColourInformation>(
-              picture.bgr(), picture.camera(), options, picture.foliage()),
-          cells};
-}
-
 class ColourCues final : public Cue {
  public:
-  // @param cam_from_level  Tilts under which it is quick.
-  ColourCues(const PictureEvidence& picture,
-             const ColourOptions& options,
-             Grid grid,
+  explicit ColourCues(std::shared_ptr<const ColourInformation> colours)
+      : colours_(std::move(colours)) {}
+
+  // Quick under some tilts.
+  ColourCues(std::shared_ptr<const ColourInformation> colours,
              std::span<const Eigen::Matrix3f> cam_from_level)
-      : picture_(picture),
-        options_(options),
-        grid_(std::move(grid)),
-        rays_(grid_.colours->cell_rays(), cam_from_level) {}
+      : colours_(std::move(colours)), rays_(colours_->cell_rays(), cam_from_level) {}
 
   std::unique_ptr<Workspace> NewWorkspace() const override { return std::make_unique<Memory>(); }
 
@@ -44,16 +30,13 @@ class ColourCues final : public Cue {
       cues = CuesOf(pose, static_cast<Memory*>(workspace)->colours);
     }
     log_ratios[0] = static_cast<float>(cues.regions);
-    // A cell tells as much as those that it stands for.
-    log_ratios[1] = grid_.cells * static_cast<float>(cues.facades);
+    log_ratios[1] = static_cast<float>(cues.facades);
   }
 
   std::shared_ptr<const Cue> ForTilts(
       std::span<const Eigen::Matrix3f> cam_from_level) const override {
-    return std::make_shared<ColourCues>(picture_, options_, grid_, cam_from_level);
+    return std::make_shared<ColourCues>(colours_, cam_from_level);
   }
-
-  static std::span<const Eigen::Matrix3f> NoTilts() { return {}; }
 
  private:
   struct Memory final : Workspace {
@@ -64,15 +47,13 @@ class ColourCues final : public Cue {
                                  ColourInformation::Workspace& workspace) const {
     const PositionView& view = pose.view;
     if (const auto turned = rays_.Find(pose.cam_from_local)) {
-      return grid_.colours->Of(view.surfaces, view.groups, rays_, *turned, workspace);
+      return colours_->Of(view.surfaces, view.groups, rays_, *turned, workspace);
     }
-    return grid_.colours->Of(view.surfaces, view.groups, pose.cam_from_local, workspace);
+    return colours_->Of(view.surfaces, view.groups, pose.cam_from_local, workspace);
   }
 
-  const PictureEvidence& picture_;
-  ColourOptions options_;
-  Grid grid_;
-  TiltedRays rays_;
+  std::shared_ptr<const ColourInformation> colours_;
+  TiltedRays rays_{{}, {}};
 };
 
 constexpr CueName kNames[] = {{"regions", 29.8}, {"facade_colours", 0.0218}};
@@ -85,9 +66,11 @@ constinit const CuePlugin kColourCues = {
     .parts = {.edges_and_skyline = false, .surfaces = true},
     .declare = [](OptionGroups& options) { options.Add<ColourOptions>("colours"); },
     .make = [](const CueContext& c) -> std::shared_ptr<const Cue> {
-      const auto& options = c.options.Get<ColourOptions>();
       return std::make_shared<ColourCues>(
-          c.picture, options, GridOf(c.picture, options, 1.0f), ColourCues::NoTilts());
+          std::make_shared<ColourInformation>(c.picture.bgr(),
+                                              c.picture.camera(),
+                                              c.options.Get<ColourOptions>(),
+                                              c.picture.foliage()));
     }};
 
 }  // namespace ridgeline

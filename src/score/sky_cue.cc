@@ -22,18 +22,13 @@ cv::Mat SkyLogOddsOf(const PictureEvidence& picture) {
 
 class SkyCue final : public Cue {
  public:
-  // @param stride  Of the skyline's directions only every so many-th is looked at.
-  SkyCue(const cv::Mat& log_odds,
-         const PinholeCamera& camera,
-         const SkyTableOptions& options,
-         std::size_t stride)
+  SkyCue(const cv::Mat& log_odds, const PinholeCamera& camera, const SkyTableOptions& options)
       : log_odds_(log_odds),
         options_(options),
-        stride_(stride),
         table_(log_odds, options),
         camera_(camera.Scaled(static_cast<double>(table_.columns()) / camera.width)) {}
 
-  // Half as many columns, rows and directions for a coarse grid.
+  // Half as many columns and rows for a coarse grid.
   std::shared_ptr<const Cue> Tolerant(double factor) const override {
     constexpr int kLeastColumns = 100;
     if (!(factor > 1.0) || table_.columns() < 2 * kLeastColumns) return nullptr;
@@ -41,7 +36,7 @@ class SkyCue final : public Cue {
     cv::resize(log_odds_, half, {}, 0.5, 0.5, cv::INTER_AREA);
     SkyTableOptions options = options_;
     options.pixel_weight *= 2.0;  // a pixel is as high as two
-    return std::make_shared<SkyCue>(half, camera_, options, 2 * stride_);
+    return std::make_shared<SkyCue>(half, camera_, options);
   }
 
   std::unique_ptr<Workspace> NewWorkspace() const override {
@@ -60,8 +55,7 @@ class SkyCue final : public Cue {
                 view.visible.azimuth_step,
                 camera_,
                 pose.cam_from_local,
-                rows,
-                stride_);
+                rows);
     log_ratios[0] = static_cast<float>(SkyLogRatio(table_, rows));
   }
 
@@ -72,7 +66,6 @@ class SkyCue final : public Cue {
 
   cv::Mat log_odds_;
   SkyTableOptions options_;
-  std::size_t stride_;
   SkyTable table_;
   PinholeCamera camera_;
 };
@@ -88,7 +81,7 @@ constinit const CuePlugin kSkyCue = {
     .declare = [](OptionGroups& options) { options.Add<SkyTableOptions>("sky"); },
     .make = [](const CueContext& c) -> std::shared_ptr<const Cue> {
       return std::make_shared<SkyCue>(
-          SkyLogOddsOf(c.picture), c.picture.camera(), c.options.Get<SkyTableOptions>(), 1);
+          SkyLogOddsOf(c.picture), c.picture.camera(), c.options.Get<SkyTableOptions>());
     }};
 
 }  // namespace ridgeline

@@ -23,19 +23,7 @@ struct SkylinePoint {
   float y = 0.0f;
 };
 
-// Of a skyline, every so many-th direction.
-struct Strided {
-  std::span<const Eigen::Vector3f> directions;
-  std::size_t stride = 1;
-
-  std::size_t size() const { return (directions.size() + stride - 1) / stride; }
-  const Eigen::Vector3f& operator[](std::size_t i) const { return directions[i * stride]; }
-};
-
-// The directions from the first on.
-void ProjectChunk(const Strided& directions,
-                  std::size_t first,
-                  std::size_t count,
+void ProjectChunk(std::span<const Eigen::Vector3f> directions,
                   const PinholeCamera& camera,
                   const Eigen::Matrix3f& cam_from_world,
                   std::array<SkylinePoint, kChunk>& points) {
@@ -46,10 +34,10 @@ void ProjectChunk(const Strided& directions,
   const auto fy = static_cast<float>(camera.fy);
   const auto cx = static_cast<float>(camera.cx);
   const auto cy = static_cast<float>(camera.cy);
-  for (std::size_t i = 0; i < count; i += 4) {
+  for (std::size_t i = 0; i < directions.size(); i += 4) {
     simd::Vec3x4 four = simd::Splat(Eigen::Vector3f::Zero());
     for (std::size_t k = 0; k < 4; ++k) {
-      simd::SetLane(four, static_cast<int>(k), directions[first + std::min(i + k, count - 1)]);
+      simd::SetLane(four, static_cast<int>(k), directions[std::min(i + k, directions.size() - 1)]);
     }
     const Float4 z = simd::Dot(rows[2], four);
     const unsigned ahead = simd::Bits(z >= kMinZ);
@@ -75,7 +63,7 @@ void DrawRows(const SkylinePoint& a, const SkylinePoint& b, std::span<float> row
   }
 }
 
-void DrawSkyline(const Strided& directions,
+void DrawSkyline(std::span<const Eigen::Vector3f> directions,
                  const PinholeCamera& camera,
                  const Eigen::Matrix3f& cam_from_world,
                  std::span<float> rows) {
@@ -84,7 +72,7 @@ void DrawSkyline(const Strided& directions,
   std::array<SkylinePoint, kChunk> points;
   for (std::size_t first = 0; first < directions.size(); first += kChunk) {
     const std::size_t count = std::min(kChunk, directions.size() - first);
-    ProjectChunk(directions, first, count, camera, cam_from_world, points);
+    ProjectChunk(directions.subspan(first, count), camera, cam_from_world, points);
     // Most of a wide skyline is beside the picture.
     float left = last.is_ahead ? last.x : width;
     float right = last.is_ahead ? last.x : 0.0f;
@@ -123,7 +111,7 @@ void SkylineRows(std::span<const Eigen::Vector3f> directions,
                  const Eigen::Matrix3f& cam_from_world,
                  std::span<float> rows) {
   std::fill(rows.begin(), rows.end(), std::numeric_limits<float>::quiet_NaN());
-  DrawSkyline({directions}, camera, cam_from_world, rows);
+  DrawSkyline(directions, camera, cam_from_world, rows);
 }
 
 void SkylineRows(std::span<const Eigen::Vector3f> directions,
@@ -131,14 +119,11 @@ void SkylineRows(std::span<const Eigen::Vector3f> directions,
                  double step,
                  const PinholeCamera& camera,
                  const Eigen::Matrix3f& cam_from_world,
-                 std::span<float> rows,
-                 std::size_t stride) {
+                 std::span<float> rows) {
   std::fill(rows.begin(), rows.end(), std::numeric_limits<float>::quiet_NaN());
   if (directions.empty()) return;
-  const double half_range = HalfRangeInView(camera, cam_from_world) + static_cast<double>(stride) * step;
-  if (half_range >= std::numbers::pi) {
-    return DrawSkyline({directions, stride}, camera, cam_from_world, rows);
-  }
+  const double half_range = HalfRangeInView(camera, cam_from_world) + step;
+  if (half_range >= std::numbers::pi) return DrawSkyline(directions, camera, cam_from_world, rows);
   const double axis = std::atan2(cam_from_world(2, 0), cam_from_world(2, 1));
   constexpr double kTurn = 2.0 * std::numbers::pi;
   // The range once, and again where it comes round after a turn.
@@ -148,10 +133,9 @@ void SkylineRows(std::span<const Eigen::Vector3f> directions,
   std::size_t done = 0;
   for (const double start : {from, from + kTurn}) {
     const double first = std::clamp(std::floor(start / step), static_cast<double>(done), count);
-    const double end = std::clamp(std::ceil((start + 2.0 * half_range) / step) + static_cast<double>(stride), first, count);
-    DrawSkyline({directions.subspan(static_cast<std::size_t>(first),
-                                    static_cast<std::size_t>(end - first)),
-                 stride},
+    const double end = std::clamp(std::ceil((start + 2.0 * half_range) / step) + 1.0, first, count);
+    DrawSkyline(directions.subspan(static_cast<std::size_t>(first),
+                                   static_cast<std::size_t>(end - first)),
                 camera,
                 cam_from_world,
                 rows);

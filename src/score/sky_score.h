@@ -22,14 +22,12 @@ void SkylineRows(std::span<const Eigen::Vector3f> directions,
 
 // The same for directions at azimuths `first_azimuth` + i * `step` [rad, step > 0]: those beside the
 // picture are passed over, which makes the whole circle cost no more than what is in view.
-// @param stride  Of the directions only every so many-th is looked at.
 void SkylineRows(std::span<const Eigen::Vector3f> directions,
                  double first_azimuth,
                  double step,
                  const PinholeCamera& camera,
                  const Eigen::Matrix3f& cam_from_world,
-                 std::span<float> rows,
-                 std::size_t stride = 1);
+                 std::span<float> rows);
 
 // Mean of the table's log ratios over the columns; unknown columns count 0.
 double SkyLogRatio(const SkyTable& table, std::span<const float> rows);
