@@ -81,6 +81,14 @@ std::string NoVisibleModel(const Score& score) {
   return unusable.empty() ? "no admissible pose of the search box sees the model" : unusable;
 }
 
+// Whether two poses are one answer, the second with more freedom.
+bool IsBeside(const PoseSpace::Offset& a, const PoseSpace::Offset& b) {
+  constexpr double kBesideM = 5.0;
+  constexpr double kBesideDeg = 10.0;
+  return std::hypot(a.east_m - b.east_m, a.north_m - b.north_m) < kBesideM &&
+         std::abs(HeadingDifferenceDeg(a.heading_deg, b.heading_deg)) < kBesideDeg;
+}
+
 std::string WordsOf(const RoofShift& shift, const CityModel& model) {
   char metres[80];
   std::snprintf(metres,
@@ -270,14 +278,18 @@ Localization Localizer::Impl::LocalizeWith(const PictureEvidence& picture,
 }
 
 bool Localizer::Impl::KeepSmallerBox(BoxAnswer& smaller, BoxAnswer& larger) const {
-  // The box asked for is far likelier than what is around it; an answer on its limit is not.
+  // The box asked for is far likelier than what is around it.
   constexpr double kOutsideNat = 6.0;
-  if (!smaller.best || !smaller.limits.empty()) return false;
-  const double advantage =
-      larger.best ? larger.best->log_ratio - smaller.best->log_ratio - kOutsideNat : -kOutsideNat;
+  if (!smaller.best || !larger.best) return !larger.best && smaller.best;
+  // Beyond the limit that the answer reached it goes on.
+  if (IsBeside(smaller.best->offset, larger.best->offset)) return false;
+  const double advantage = larger.best->log_ratio - smaller.best->log_ratio - kOutsideNat;
   if (advantage > 0.0) return false;
   Localization& result = smaller.result;
-  Reconsider(1.0 / (1.0 + std::exp(advantage)), options.confidence, result);
+  Reconsider(1.0 / (1.0 + std::exp(advantage)),
+             !smaller.limits.empty(),
+             options.confidence,
+             result);
   result.evaluations = larger.result.evaluations;
   result.times = std::move(larger.result.times);
   result.notes = std::move(larger.result.notes);
