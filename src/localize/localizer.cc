@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "localize/localizer.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -284,9 +285,10 @@ bool Localizer::Impl::KeepSmallerBox(BoxAnswer& smaller, BoxAnswer& larger) cons
   // Beyond the limit that the answer reached it goes on.
   if (IsBeside(smaller.best->offset, larger.best->offset)) return false;
   const double advantage = larger.best->log_ratio - smaller.best->log_ratio - kOutsideNat;
-  if (advantage > 0.0) return false;
   Localization& result = smaller.result;
-  Reconsider(1.0 / (1.0 + std::exp(advantage)),
+  if (advantage > 0.0 && larger.result.confidence >= result.confidence) return false;
+  // What explains less in absolute terms outweighs nothing, whatever its score.
+  Reconsider(1.0 / (1.0 + std::exp(std::min(advantage, 0.0))),
              !smaller.limits.empty(),
              options.confidence,
              result);
