@@ -67,6 +67,24 @@ const std::map<std::string, std::vector<std::string>>& Companions() {
         "search.fit.max_loss=1000",
         "search.fit.max_move_m=5",
         "search.fit.max_turn_deg=10"}},
+      // The posterior mass is below 1 then.
+      {"confidence.right.mass_power", {kFewModes, "confidence.temperature=50"}},
+      // There is no protection level then, until the key makes gross errors impossible.
+      {"confidence.near.",
+       {kFewModes,
+        "confidence.right.offset=-15",
+        "confidence.near.mass_power=0",
+        "confidence.near.offset=-100"}},
+      {"confidence.near.offset",
+       {kFewModes,
+        "confidence.right.offset=-15",
+        "confidence.near.mass_power=0",
+        "confidence.near.explained=-100"}},
+      {"confidence.near.mass_power",
+       {kFewModes,
+        "confidence.right.offset=-15",
+        "confidence.temperature=50",
+        "confidence.near.offset=50"}},
       // The answer lies on a limit then.
       {"search.widenings", {kFewModes, "search.east_m=0.2", "search.north_m=0.2"}},
       {"search.evaluations", Sampled("sobol", 20)},
@@ -164,8 +182,8 @@ const std::map<std::string, std::string>& Values() {
       {"confidence.doubtful_below", "1"},
       {"confidence.alert_limit_m", "0.001"},
       // A gross error is out of the question then, and there is a protection level.
-      {"confidence.near.offset", "50"},
-      {"confidence.near.explained", "80"},
+      {"confidence.near.offset", "500"},
+      {"confidence.near.explained", "300"},
       {"confidence.near.above_background", "30"},
       {"confidence.near.mass_power", "0"}};
   return values;
