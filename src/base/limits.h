@@ -43,7 +43,7 @@ inline constexpr std::int64_t kRasterCells = 100'000'000;
 inline constexpr std::int64_t kPicturePixels = 200'000'000;
 inline constexpr std::int64_t kPixelsPerByte = 50;
 inline constexpr std::int64_t kPackedPixels = 25'000'000;
-inline constexpr int kLeastPictureSide = 32;
+inline constexpr int kLeastPictureSide = 24;
 
 // Segments of a file of lines; a detector finds thousands.
 inline constexpr std::size_t kSegments = 100'000;

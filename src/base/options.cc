@@ -55,6 +55,10 @@ class JsonReader final : public OptionVisitor {
   }
   void Field(std::string_view name, double& value) override {
     Get(name, value, "a number", [](const Json& j) { return j.is_number(); });
+    // Beyond it no option means anything, and squares overflow.
+    constexpr double kMost = 1e9;
+    if (std::abs(value) <= kMost) return;
+    throw InputError(file_, Path(name), JsonText(Json(value)), "a number of at most 1e9");
   }
   void Field(std::string_view name, std::string& value) override {
     Get(name, value, "a text", [](const Json& j) { return j.is_string(); });

@@ -199,6 +199,17 @@ class CityJsonReader {
     return templates_[index];
   }
 
+  // Templates are written once and drawn many times.
+  void SpendCopies(std::size_t points) {
+    copied_ += points;
+    if (copied_ <= limits::kCopiedPoints) return;
+    throw InputError(model_.file,
+                     "limit",
+                     "templates that stand for more than " + std::to_string(limits::kCopiedPoints) +
+                         " points",
+                     "geometry that is written out, not multiplied by instances");
+  }
+
   // All surfaces of the finest fraction of each integer level are one shape: 3DBAG gives 1.2 and
   // 1.3, other programs the roof in one geometry and the walls in another.
   void ReadGeometries(const std::string& id, const Json& object, int owner, bool installation) {
@@ -260,7 +271,9 @@ class CityJsonReader {
       Fail("vertex " + std::to_string(anchor), "a vertex of the file");
     Eigen::Matrix4d place = Eigen::Matrix4d::Identity();
     place.topRightCorner<3, 1>() = vertices_[anchor];
+    const std::size_t points_before = model_.points.size();
     ReadBoundaries(shape, template_vertices_, place * matrix);
+    SpendCopies(model_.points.size() - points_before);
   }
 
   void ReadBoundaries(const Json& geometry,
@@ -373,6 +386,7 @@ class CityJsonReader {
   std::vector<Eigen::Vector3d> vertices_;
   Json templates_ = Json::array();
   std::vector<Eigen::Vector3d> template_vertices_;
+  std::size_t copied_ = 0;  // points of instances
   // Of the geometry being read:
   std::string place_;
   std::size_t owner_ = 0;
