@@ -3,11 +3,13 @@
 
 #include "base/error.h"
 #include "city/format/openable.h"
+#include "city/vrt_sources.h"
 
 namespace ridgeline {
 
 GdalDatasetPtr OpenRaster(const std::string& file, const std::string& expected) {
   RequireOpenable(file, expected, true);
+  CheckVrtSources(file);
   GDALAllRegister();
   GdalDatasetPtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
   if (dataset == nullptr || dataset->GetRasterCount() < 1) {
