@@ -181,7 +181,8 @@ Localization Localizer::Localize(const LocalizationInput& input,
                                 options.lines,
                                 options.score.evidence,
                                 threads,
-                                input.lines);
+                                input.lines,
+                                input.classes);
   const std::unique_ptr<Score> score = MakeScore({picture, scene, options.score});
   lap("picture");
   if (picture.segments().size() < kMinLines) {
