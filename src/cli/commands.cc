@@ -11,6 +11,7 @@
 #include "cli/localize.h"
 #include "cli/options.h"
 #include "cli/render.h"
+#include "cli/replay.h"
 #include "cli/skyline.h"
 #include "cli/study.h"
 #include "cli/synth.h"
@@ -32,6 +33,7 @@ constexpr AddFunction kCommands[] = {
     AddRenderCommand,
     AddSkylineCommand,
     AddAugmentCommand,
+    AddReplayCommand,
     AddSynthCommand,
     AddOptionsCommand,
     AddDoctorCommand,

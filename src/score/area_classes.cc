@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <opencv2/calib3d.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 

@@ -18,6 +18,9 @@ namespace ridgeline {
 struct SkylineTrackOptions {
   // "path": ours; "canny": the paper's.
   std::string extractor = "path";
+  // The model's skyline: "exact" from its edges, or "rendered": extracted from images of the model by
+  // the paper's way (rendered_skyline.h), some hundred times slower.
+  std::string virtual_skyline = "exact";
   // Where a frame's match begins: "sensors", or "last": the sensors with what the last good match
   // corrected (the paper's outlook), since their errors drift slowly.
   std::string start = "last";
@@ -77,7 +80,7 @@ class SkylineTracker {
                                const Pose& cam_from_local) const;
 
  private:
-  SkylineSource Source() const;
+  SkylineSource Source(const PinholeCamera& camera) const;
 
   const Scene& scene_;
   const SkylineTrackOptions options_;
