@@ -3,6 +3,7 @@
 
 #include "cli/augment.h"
 #include "cli/bench.h"
+#include "cli/calibrate.h"
 #include "cli/completion.h"
 #include "cli/convert.h"
 #include "cli/doctor.h"
@@ -30,6 +31,7 @@ constexpr AddFunction kCommands[] = {
     AddIndexCommand,
     AddInfoCommand,
     AddConvertCommand,
+    AddCalibrateCommand,
     AddRenderCommand,
     AddSkylineCommand,
     AddAugmentCommand,
