@@ -7,7 +7,6 @@
 #include "base/error.h"
 #include "eval/pose_json.h"
 #include "lines/segments_file.h"
-#include "score/area_classes.h"
 
 namespace ridgeline {
 namespace {
@@ -47,10 +46,6 @@ LocalizationInput InputOf(const Query& query,
                        "a file of segments, since lines.detector is \"file\"");
     }
     input.lines = ReadSegments(*query.lines, *query.camera);
-  }
-  const AreaOptions& areas = options.score.groups.Get<AreaOptions>();
-  if (options.score.name == kAreaScoreName && areas.source == "file") {
-    input.classes = ReadClasses(ClassFileOf(query.image, areas), *query.camera);
   }
   return input;
 }

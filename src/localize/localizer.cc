@@ -181,8 +181,7 @@ Localization Localizer::Localize(const LocalizationInput& input,
                                 options.lines,
                                 options.score.evidence,
                                 threads,
-                                input.lines,
-                                input.classes);
+                                input.lines);
   const std::unique_ptr<Score> score = MakeScore({picture, scene, options.score});
   lap("picture");
   if (picture.segments().size() < kMinLines) {

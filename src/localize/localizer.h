@@ -22,9 +22,6 @@ struct LocalizationInput {
   PosePrior prior;
   // Undistorted segments of another detector, for lines.detector = "file".
   std::optional<std::vector<LineSegment>> lines;
-  // Undistorted classes of the picture by any segmentation (score/area_classes.h), CV_8U, as large
-  // as the picture; empty: none. For score.areas.source = "file".
-  cv::Mat classes;
 };
 
 // Finds poses of pictures in one city model. The constructor does the costly work.

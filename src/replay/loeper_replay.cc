@@ -54,8 +54,7 @@ class Compared {
                   localizer.options().lines,
                   localizer.options().score.evidence,
                   threads,
-                  input_.lines,
-                  input_.classes),
+                  input_.lines),
         score_(MakeScore({evidence_, localizer.scene(), localizer.options().score})) {}
 
   std::vector<LoeperSample> Search(const SearchStart& start,

@@ -33,30 +33,12 @@ cv::Mat OneChannel(const cv::Mat& picture, const std::string& file) {
   return channels.front();
 }
 
-// The same for values that must not be mixed.
-cv::Mat UndistortedNearest(const cv::Mat& classes, const CameraIntrinsics& camera) {
-  if (!camera.HasDistortion()) return classes;
-  const PinholeCamera pinhole = camera.Pinhole();
-  cv::Mat map_x(classes.size(), CV_32F), map_y(classes.size(), CV_32F);
-  for (int y = 0; y < classes.rows; ++y) {
-    for (int x = 0; x < classes.cols; ++x) {
-      const Eigen::Vector3d ray = pinhole.RayFromImage({x + 0.5, y + 0.5});
-      const Eigen::Vector2d px = camera.Distort({ray.x(), ray.y()});
-      map_x.at<float>(y, x) = static_cast<float>(px.x() - 0.5);
-      map_y.at<float>(y, x) = static_cast<float>(px.y() - 0.5);
-    }
-  }
-  cv::Mat straight;
-  cv::remap(classes, straight, map_x, map_y, cv::INTER_NEAREST, cv::BORDER_REPLICATE);
-  return straight;
-}
-
 }  // namespace
 
 void AreaOptions::Visit(OptionVisitor& v) {
   v.Field("source", source);
   v.Field("parts", parts);
-  v.Field("suffix", suffix);
+  v.Field("file", file);
   v.Field("building", building);
   v.Field("roof", roof);
   v.Field("wall", wall);
@@ -80,7 +62,7 @@ void AreaOptions::Validate() const {
   if (parts == "roof_wall" && (roof.empty() || wall.empty())) {
     refuse(roof.empty() ? "roof" : "wall", "no value", "the class image's values of roofs and walls");
   }
-  if (suffix.empty()) refuse("suffix", "nothing", "e.g. .classes.png");
+  if (source == "file" && file.empty()) refuse("file", "nothing", "a class image (PNG)");
   if (columns < 16 || columns > 1000) refuse("columns", std::to_string(columns), "[16, 1000]");
   std::array<bool, 256> used{};
   for (const auto* list : {&building, &roof, &wall, &sky, &ground, &unknown}) {
@@ -95,14 +77,7 @@ void AreaOptions::Validate() const {
   }
 }
 
-std::filesystem::path ClassFileOf(const std::filesystem::path& image, const AreaOptions& options) {
-  std::filesystem::path file = image;
-  file.replace_extension();
-  file += options.suffix;
-  return file;
-}
-
-cv::Mat ReadClasses(const std::filesystem::path& path, const CameraIntrinsics& camera) {
+cv::Mat ReadClasses(const std::filesystem::path& path, const PinholeCamera& camera) {
   const cv::Mat read = cv::imread(path.string(), cv::IMREAD_UNCHANGED);
   if (read.empty()) {
     throw InputError(path.string(), "", "nothing that can be read", "a class image or mask (PNG)");
@@ -119,9 +94,7 @@ cv::Mat ReadClasses(const std::filesystem::path& path, const CameraIntrinsics& c
                      SizeText(classes.cols, classes.rows),
                      "the shape of the picture, " + SizeText(camera.width, camera.height));
   }
-  cv::resize(
-      classes, classes, cv::Size(camera.width, camera.height), 0.0, 0.0, cv::INTER_NEAREST);
-  return UndistortedNearest(classes, camera);
+  return classes;
 }
 
 cv::Mat AreasOfFile(const cv::Mat& classes, const AreaOptions& options, const cv::Size& cells) {

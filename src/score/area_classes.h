@@ -19,13 +19,13 @@ enum class AreaClass : std::uint8_t { kUnknown, kSky, kGround, kWall, kRoof, kBu
 
 struct AreaOptions {
   // "colours": sky and not-sky by the picture's own colours, leaves left out; "file": an image of
-  // classes or a mask by any segmentation, beside the picture.
+  // classes or a mask by any segmentation.
   std::string source = "colours";
   // "building": the outlines of buildings as a whole; "roof_wall": roofs and walls apart, which
   // colours alone cannot tell ("file" only).
   std::string parts = "building";
-  // Ending of the class image's name in place of the picture's, e.g. images/000.classes.png.
-  std::string suffix = ".classes.png";
+  // Of "file": the class image of the one picture that is looked at.
+  std::string file;
   // Values of the class image. What is in none of the lists is something else (cars, trees).
   std::vector<double> building = {255.0};  // roof or wall, not told apart
   std::vector<double> roof;
@@ -41,13 +41,10 @@ struct AreaOptions {
   void Validate() const;
 };
 
-// The class image of a picture.
-std::filesystem::path ClassFileOf(const std::filesystem::path& image, const AreaOptions& options);
-
-// Class image or mask (8 bit, one channel; of colour pictures with equal channels one is taken),
-// undistorted like the picture, without mixing values. A size other than the camera's is allowed if
-// its shape is the same. Throws InputError for a file that is missing or something else.
-cv::Mat ReadClasses(const std::filesystem::path& path, const CameraIntrinsics& camera);
+// Class image or mask (8 bit, one channel; of colour pictures with equal channels one is taken) of a
+// picture without distortion. A size other than the camera's is allowed if its shape is the same.
+// Throws InputError for a file that is missing or something else.
+cv::Mat ReadClasses(const std::filesystem::path& path, const PinholeCamera& camera);
 
 // Classes of the cells of a grid of `columns` over the picture, row by row: by the values of a class
 // image; CV_8U in and out.

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "base/error.h"
 #include "score/score_plugin.h"
 
 namespace ridgeline {
@@ -39,14 +38,10 @@ AreaScore::AreaScore(const PictureEvidence& picture,
   const PinholeCamera grid =
       picture.camera().Scaled(static_cast<double>(options.columns) / picture.camera().width);
   const cv::Size cells(grid.width, grid.height);
-  if (!by_colours_ && picture.classes().empty()) {
-    throw InputError("",
-                     "score.areas.source",
-                     "\"file\" without a class image",
-                     "a picture with one beside it (score.areas.suffix), or \"colours\"");
-  }
   const cv::Mat areas = by_colours_ ? AreasOfColours(picture.bgr(), picture.foliage(), cells)
-                                    : AreasOfFile(picture.classes(), options, cells);
+                                    : AreasOfFile(ReadClasses(options.file, picture.full_camera()),
+                                                  options,
+                                                  cells);
   bool any = false;
   for (int y = 0; y < grid.height; ++y) {
     for (int x = 0; x < grid.width; ++x) {

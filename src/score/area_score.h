@@ -21,7 +21,7 @@ namespace ridgeline {
 // not tell ground from walls.
 class AreaScore final : public Score {
  public:
-  // Throws InputError for source "file" without a class image in `picture`.
+  // Throws InputError for source "file" as ReadClasses().
   AreaScore(const PictureEvidence& picture, const CityModel& model, const AreaOptions& options);
 
   ViewParts parts() const override { return {false, true}; }

@@ -21,14 +21,6 @@ cv::Mat Reduced(const cv::Mat& picture, const PinholeCamera& camera) {
   return reduced;
 }
 
-cv::Mat ReducedClasses(const cv::Mat& classes, const PinholeCamera& camera) {
-  if (classes.empty()) return {};
-  cv::Mat reduced;
-  cv::resize(
-      classes, reduced, cv::Size(camera.width, camera.height), 0.0, 0.0, cv::INTER_NEAREST);
-  return reduced;
-}
-
 bool IsOneColour(const cv::Mat& bgr) {
   cv::Mat changes;
   cv::compare(bgr,
@@ -61,8 +53,7 @@ PictureEvidence::PictureEvidence(const cv::Mat& bgr,
                                  const LineDetectionOptions& lines,
                                  const EvidenceOptions& options,
                                  int threads,
-                                 const std::optional<std::vector<LineSegment>>& given_lines,
-                                 const cv::Mat& given_classes)
+                                 const std::optional<std::vector<LineSegment>>& given_lines)
     : full_bgr_(bgr),
       full_camera_(camera),
       camera_(WorkCamera(camera, options.work_size_px)),
@@ -70,7 +61,6 @@ PictureEvidence::PictureEvidence(const cv::Mat& bgr,
       is_one_colour_(IsOneColour(bgr_)),
       segments_(WorkSegments(bgr_, camera_, camera, lines, given_lines)),
       foliage_(FoliageMask(bgr_)),
-      classes_(ReducedClasses(given_classes, camera_)),
       field_(segments_, camera_.width, camera_.height, threads, foliage_) {}
 
 }  // namespace ridgeline

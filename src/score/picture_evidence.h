@@ -19,14 +19,12 @@ class PictureEvidence {
   // @param bgr  Undistorted picture, 8 bit, three channels.
   // @param camera  Of the picture as given.
   // @param given_lines  Segments [px of the picture as given] instead of the detector's.
-  // @param given_classes  Class image (area_classes.h), CV_8U, as large as `bgr`; empty: none.
   PictureEvidence(const cv::Mat& bgr,
                   const PinholeCamera& camera,
                   const LineDetectionOptions& lines,
                   const EvidenceOptions& options,
                   int threads,
-                  const std::optional<std::vector<LineSegment>>& given_lines = std::nullopt,
-                  const cv::Mat& given_classes = {});
+                  const std::optional<std::vector<LineSegment>>& given_lines = std::nullopt);
 
   PictureEvidence(const PictureEvidence&) = delete;
   PictureEvidence& operator=(const PictureEvidence&) = delete;
@@ -41,8 +39,6 @@ class PictureEvidence {
   const std::vector<LineSegment>& segments() const { return segments_; }
   // CV_8U, 255 where leaves hide what is behind.
   const cv::Mat& foliage() const { return foliage_; }
-  // The classes given, reduced without mixing; empty: none were.
-  const cv::Mat& classes() const { return classes_; }
   // Of the segments; hidden where the leaves are.
   const OrientedDistanceField& field() const { return field_; }
   // Whether there is nothing to compare: no lines, and one colour.
@@ -56,7 +52,6 @@ class PictureEvidence {
   bool is_one_colour_ = false;
   std::vector<LineSegment> segments_;
   cv::Mat foliage_;
-  cv::Mat classes_;
   OrientedDistanceField field_;
 };
 

@@ -34,8 +34,7 @@ class QueryStudy {
                   localizer.options().lines,
                   localizer.options().score.evidence,
                   options.threads,
-                  input.lines,
-                  input.classes),
+                  input.lines),
         space_(input.prior, ranges, localizer.scene(), localizer.dtm(), localizer.footprints()) {
     truth_.center_in_world -= localizer.scene().model().origin_in_world;
   }
