@@ -151,27 +151,36 @@ std::optional<AyadiFrame> FrameOf(SequenceInput& input, std::size_t index, bool 
 }
 
 // The new building of Fig. 13: a file's, with coordinates of its own, or a tower.
-CityModel NewBuilding(const AyadiArguments& arguments,
+TexturedMesh NewBuilding(const AyadiArguments& arguments,
                       const SequenceInput& input,
                       const AyadiFrame& frame) {
   if (arguments.building.empty()) {
     constexpr double kDistanceM = 60.0;
     const auto ground =
         input.dtm ? input.dtm->HeightAt(frame.instruments.center_in_world.head<2>()) : std::nullopt;
-    return TowerBefore(frame.truth.value_or(frame.instruments),
+    return TexturedFrom(TowerBefore(frame.truth.value_or(frame.instruments),
                        kDistanceM,
-                       ground.value_or(frame.instruments.center_in_world.z() - 1.6));
+                       ground.value_or(frame.instruments.center_in_world.z() - 1.6)));
   }
   CityOptions options;
   if (input.model->crs.horizontal_epsg != 0) {
     options.project_to = "EPSG:" + std::to_string(input.model->crs.horizontal_epsg);
   }
   const CityModel model = ReadCity({arguments.building}, options);
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& v : model.vertices) box.extend(v);
-  const Eigen::Vector3d base(box.center().x(), box.center().y(), box.min().z());
-  return PlacedModel(
-      model, base + model.origin_in_world - input.model->origin_in_world, 0.0, 1.0);
+  TexturedMesh mesh = TexturedFrom(model);
+  for (Eigen::Vector3d& v : mesh.vertices) v += model.origin_in_world - input.model->origin_in_world;
+  return mesh;
+}
+
+// Poses from the last frame's, as `ridgeline skyline` has them by default.
+AyadiTemporal TemporalPoses(const Scene& scene, const std::vector<AyadiFrame>& frames) {
+  SkylineTracker tracker(scene, SkylineTrackOptions{});
+  AyadiTemporal temporal;
+  for (const AyadiFrame& frame : frames) {
+    temporal.poses.push_back(
+        tracker.Track(frame.picture, frame.camera, frame.instruments).match.pose);
+  }
+  return temporal;
 }
 
 std::size_t ChosenFrame(const std::vector<AyadiFrame>& frames, const std::string& id) {
@@ -205,8 +214,7 @@ int RunAyadi(AyadiArguments& arguments, const Context& context) {
     throw InputError("--sensors", "", "no frame with picture and instruments", "at least one");
   }
   const std::size_t chosen = ChosenFrame(frames, arguments.frame);
-  const CityModel building = NewBuilding(arguments, *input, frames[chosen]);
-  const Scene tower(building, nullptr, ProjectionOptions{});
+  const TexturedMesh tower = NewBuilding(arguments, *input, frames[chosen]);
   ReplayPage page("Ayadi et al., replayed on " +
                       (arguments.sequence.dataset.empty() ? arguments.sequence.frames
                                                           : arguments.sequence.dataset),
@@ -227,6 +235,7 @@ int RunAyadi(AyadiArguments& arguments, const Context& context) {
   }
   AddAyadiResults(runs, page);
   AddAyadiSizes(runs, page);
+  AddAyadiStability(runs, frames, TemporalPoses(*input->scene, frames), tower, page);
   for (const AyadiRun& run : runs) {
     AddAyadiFrame(
         *input->scene, run.variant, frames[chosen], run.frames[chosen], &tower, page);

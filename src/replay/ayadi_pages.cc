@@ -5,6 +5,8 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "augment/impact.h"
+#include "augment/insertion.h"
 #include "eval/csv_text.h"
 #include "report/chart.h"
 #include "report/model_view.h"
@@ -194,6 +196,47 @@ void AddAyadiResults(std::span<const AyadiRun> runs, ReplayPage& page) {
   page.File("frames.csv", "All frames, methods and poses (local frame):", FramesCsv(runs));
 }
 
+void AddAyadiStability(std::span<const AyadiRun> runs,
+                       std::span<const AyadiFrame> frames,
+                       const AyadiTemporal& temporal,
+                       const TexturedMesh& tower,
+                       ReplayPage& page) {
+  std::vector<std::vector<std::string>> rows;
+  const auto add = [&](const std::string& name, const auto& pose_of) {
+    std::vector<InsertedFrame> inserted;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      inserted.push_back({frames[i].camera, pose_of(i), frames[i].truth});
+    }
+    const InsertionStability s = StabilityOf(inserted, tower);
+    if (s.frames == 0) return;
+    rows.push_back({name,
+                    std::to_string(s.frames),
+                    TableNumber(s.mean_error_px, 2),
+                    TableNumber(s.worst_error_px, 2),
+                    TableNumber(s.jitter_px, 2)});
+  };
+  for (const AyadiRun& run : runs) {
+    for (std::size_t m = 0; m < kAyadiMethodCount; ++m) {
+      add(run.variant.name + ", " + kAyadiMethods[m],
+          [&](std::size_t i) { return std::optional<Pose>(run.frames[i].pose[m]); });
+    }
+  }
+  add("temporal", [&](std::size_t i) { return temporal.poses[i]; });
+  page.Heading("How true and how steady the insertion stands");
+  if (rows.empty()) {
+    page.Text("Not known: no frame has a true pose, or the building is not before the camera.");
+    return;
+  }
+  page.Text(
+      "Distance of the new building's corners in the picture from where the true pose puts them, in "
+      "pixels of the picture; jitter: root mean square of its change from frame to frame, which is "
+      "seen as hovering. Temporal: from the last frame, with key frames in six degrees of freedom.");
+  page.Table("stability.csv",
+             "Insertion.",
+             {"poses", "frames", "mean error [px]", "worst [px]", "jitter [px]"},
+             rows);
+}
+
 void AddAyadiSizes(std::span<const AyadiRun> runs, ReplayPage& page) {
   std::vector<std::vector<std::string>> rows;
   for (const AyadiRun& run : runs) {
@@ -228,7 +271,7 @@ void AddAyadiFrame(const Scene& scene,
                    const AyadiVariant& variant,
                    const AyadiFrame& frame,
                    const AyadiResult& result,
-                   const Scene* tower,
+                   const TexturedMesh* tower,
                    ReplayPage& page) {
   constexpr int kHeightPx = 360;
   const std::string of = variant.name + ", frame " + frame.id;
@@ -261,10 +304,10 @@ void AddAyadiFrame(const Scene& scene,
                SideBySide(views, kHeightPx));
   if (tower == nullptr) return;
   std::vector<cv::Mat> augmented;
+  const Inserter inserter(scene, *tower);
   for (const std::size_t m : {std::size_t{0}, k3d}) {
     augmented.push_back(
-        InsertBuilding(frame.picture, scene, *tower, frame.camera, result.pose[m], InsertOptions{})
-            .picture);
+        inserter.Insert(frame.picture, frame.camera, result.pose[m], InsertionOptions{}).picture);
   }
   page.Picture("fig13_" + variant.name + ".png",
                "Fig. 13, " + of + ": the new building by the instruments' pose and after 3D",

@@ -3,10 +3,10 @@
 
 #include <span>
 
+#include "augment/textured_mesh.h"
 #include "projection/scene.h"
 #include "replay/ayadi_replay.h"
 #include "replay/replay_page.h"
-#include "report/inserted_building.h"
 
 namespace ridgeline {
 
@@ -19,6 +19,17 @@ struct AyadiRun {
 // Table 1 with the paper's rows, Fig. 11 (both kinds of L1), frames.csv.
 void AddAyadiResults(std::span<const AyadiRun> runs, ReplayPage& page);
 
+// Error and jitter of a building inserted by each method, where the truth is known, and by the
+// temporal way (from the last frame, key frames in six degrees of freedom).
+struct AyadiTemporal {
+  std::vector<std::optional<Pose>> poses;  // cam_from_local, by frame
+};
+void AddAyadiStability(std::span<const AyadiRun> runs,
+                       std::span<const AyadiFrame> frames,
+                       const AyadiTemporal& temporal,
+                       const TexturedMesh& tower,
+                       ReplayPage& page);
+
 // Sizes of the skylines of all frames by precision, as extracted by the first variant.
 void AddAyadiSizes(std::span<const AyadiRun> runs, ReplayPage& page);
 
@@ -29,7 +40,7 @@ void AddAyadiFrame(const Scene& scene,
                    const AyadiVariant& variant,
                    const AyadiFrame& frame,
                    const AyadiResult& result,
-                   const Scene* tower,
+                   const TexturedMesh* tower,
                    ReplayPage& page);
 
 // Fig. 9.
