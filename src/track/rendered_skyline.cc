@@ -8,7 +8,7 @@
 namespace ridgeline {
 namespace {
 
-constexpr double kDeg = 180.0 / std::numbers::pi;
+constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr double kViewRad = std::numbers::pi / 3.0;
 // Above and below the horizon that a view shows (tangent): skylines of near houses are high.
 constexpr double kAbove = 2.2;
@@ -54,7 +54,7 @@ std::vector<Eigen::Vector3f> RenderedSkyline(const Scene& scene,
   std::vector<Eigen::Vector3f> directions;
   for (int v = 0; v < views; ++v) {
     const double azimuth = sector.center - 0.5 * width_rad + (v + 0.5) * view_rad;
-    const Pose pose{CamFromWorld(ViewAngles{azimuth * kDeg, 0.0, 0.0}), position};
+    const Pose pose{CamFromWorld(ViewAngles{azimuth * kDegPerRad, 0.0, 0.0}), position};
     const Skyline skyline =
         ExtractCannySkyline(Drawn(scene.Render(camera, pose), camera, pose), full);
     const Eigen::Quaterniond world_from_cam = pose.cam_from_world.conjugate();

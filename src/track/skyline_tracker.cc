@@ -40,8 +40,8 @@ void SkylineTrackOptions::Visit(OptionVisitor& v) {
 }
 
 void SkylineTrackOptions::Validate() const {
-  if (extractor != "path" && extractor != "canny") {
-    throw InputError("", "extractor", '"' + extractor + '"', "path or canny");
+  if (extractor != "path" && extractor != "canny" && extractor != "file") {
+    throw InputError("", "extractor", '"' + extractor + '"', "path, canny or file");
   }
   if (virtual_skyline != "exact" && virtual_skyline != "rendered") {
     throw InputError("", "virtual_skyline", '"' + virtual_skyline + '"', "exact or rendered");
@@ -82,11 +82,16 @@ SkylineTracker::Correction SkylineTracker::Between(const Pose& sensors, const Po
 
 SkylineFrame SkylineTracker::Track(const cv::Mat& bgr,
                                    const PinholeCamera& camera,
-                                   const Pose& sensors) {
+                                   const Pose& sensors,
+                                   const Skyline* given) {
   SkylineFrame frame;
   const Clock::time_point begin = Clock::now();
-  frame.skyline = options_.extractor == "canny" ? ExtractCannySkyline(bgr, options_.canny)
-                                                : ExtractSkyline(bgr, options_.skyline);
+  if (given != nullptr) {
+    frame.skyline = *given;
+  } else {
+    frame.skyline = options_.extractor == "canny" ? ExtractCannySkyline(bgr, options_.canny)
+                                                  : ExtractSkyline(bgr, options_.skyline);
+  }
   frame.times.extract_ms = MillisecondsSince(begin);
 
   const Clock::time_point extracted = Clock::now();
