@@ -24,9 +24,8 @@ std::vector<cv::Point3f> BoardPoints(const CheckerboardOptions& options) {
   std::vector<cv::Point3f> points;
   for (int row = 0; row < options.rows; ++row) {
     for (int column = 0; column < options.columns; ++column) {
-      points.emplace_back(static_cast<float>(column * options.square_m),
-                          static_cast<float>(row * options.square_m),
-                          0.0f);
+      // In squares: the size of the board does not change the camera.
+      points.emplace_back(static_cast<float>(column), static_cast<float>(row), 0.0f);
     }
   }
   return points;
@@ -128,7 +127,6 @@ void CheckerboardOptions::Validate() const {
            std::to_string(columns) + "x" + std::to_string(rows),
            "unequal numbers: a square board has no top");
   }
-  if (!(square_m > 0.0)) Refuse("--square", std::to_string(square_m), "more than 0 m");
   if (max_views < static_cast<int>(kLeastViews)) {
     Refuse("--views", std::to_string(max_views), "at least 5");
   }

@@ -14,7 +14,6 @@ namespace ridgeline {
 struct CheckerboardOptions {
   int columns = 9;  // inner corners across and down, both at least 3, not equal to each other
   int rows = 6;
-  double square_m = 0.025;  // does not change the camera, only the distances of the board
   // Frames used at most: the ones whose boards differ most.
   int max_views = 40;
   // Lens model: "opencv" (k1, k2, p1, p2), "radial" (k1, k2, one focal length) or "pinhole".

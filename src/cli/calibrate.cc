@@ -109,8 +109,6 @@ void AddCalibrateCommand(CLI::App& app, Context& context) {
   command->add_option("--board", arguments->board, "Inner corners of the board, across x down")
       ->capture_default_str()
       ->type_name("CxR");
-  command->add_option("--square", arguments->options.square_m, "Side of a square [m]")
-      ->capture_default_str();
   command->add_option("--lens", arguments->options.model, "opencv (k1 k2 p1 p2), radial or pinhole")
       ->capture_default_str();
   command->add_option("--views", arguments->options.max_views, "Most frames used")

@@ -20,7 +20,6 @@ CheckerboardOptions Board() {
   CheckerboardOptions options;
   options.columns = 8;
   options.rows = 6;
-  options.square_m = kSquareM;
   return options;
 }
 
