@@ -146,9 +146,9 @@ void AddAugmentCommand(CLI::App& app, Context& context) {
       {"augment",
        "Draws a planned building into a photo or a film, hidden by what stands before it.",
        "ridgeline augment --dataset town/dataset.json --query street_000 \\\n"
-       "    --building town/tower.obj --place 654096,5412123 --shadows --out augmented.jpg\n"
+       "    --building town/tower.obj --place 654228,5412066 --shadows --out augmented.jpg\n"
        "ridgeline augment --dataset walk/dataset.json --poses poses/frames.csv \\\n"
-       "    --building tower.glb --place 654096,5412123 --film augmented.mp4"},
+       "    --building walk/tower.obj --place 654168,5412050 --film augmented.mp4"},
       [arguments](Context& c) { return RunAugment(*arguments, c); });
   AddViewOptions(*command, arguments->view);
   AddBuildingOptions(*command, *arguments);
