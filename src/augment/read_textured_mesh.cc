@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <assimp/GltfMaterial.h>
 #include <assimp/Importer.hpp>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
@@ -92,6 +93,12 @@ Material MaterialOf(const aiScene& scene,
   float opacity = 1.0f;
   if (from.Get(AI_MATKEY_OPACITY, opacity) == AI_SUCCESS) {
     material.opacity = std::min(material.opacity, std::clamp(opacity, 0.0f, 1.0f));
+  }
+  // glTF's alpha counts in materials that say so only.
+  aiString mode;
+  if (from.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == AI_SUCCESS &&
+      std::string(mode.C_Str()) == "OPAQUE") {
+    material.opacity = 1.0f;
   }
   material.texture = TextureOf(scene, from, folder, warnings);
   return material;

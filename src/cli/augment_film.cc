@@ -151,6 +151,13 @@ int RunAugmentFilm(const AugmentArguments& arguments, const Context& context) {
       const SequenceFrame& known = input->frames[i];
       cv::Mat picture = input->source->Read(i);
       if (picture.empty() || !known.camera) continue;
+      if (picture.cols != known.camera->width || picture.rows != known.camera->height) {
+        throw InputError(known.id,
+                         "",
+                         std::to_string(picture.cols) + " x " + std::to_string(picture.rows) + " px",
+                         "the camera's " + std::to_string(known.camera->width) + " x " +
+                             std::to_string(known.camera->height) + " px");
+      }
       ++frames;
       picture = UndistortImage(picture, *known.camera);
       const PinholeCamera camera = known.camera->Pinhole();

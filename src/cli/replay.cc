@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/replay.h"
 
+#include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "base/error.h"
 #include "city/read_city.h"
@@ -15,6 +17,7 @@
 #include "input/world.h"
 #include "replay/ayadi_pages.h"
 #include "replay/loeper_pages.h"
+#include "score/picture_evidence.h"
 #include "study/study.h"
 
 namespace ridgeline {

@@ -89,7 +89,7 @@ TEST_F(MeshFiles, GltfIsTurnedUpright) {
         R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
 "nodes":[{"mesh":0,"translation":[0,0,-5]}],
 "meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],
-"materials":[{"name":"red","pbrMetallicRoughness":{"baseColorFactor":[1,0,0,0.5]}}],
+"materials":[{"name":"red","alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[1,0,0,0.5]}}],
 "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[2,3,0]}],
 "bufferViews":[{"buffer":0,"byteLength":36}],
 "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAAAAQAAAAAAAAAAAAAAAAAAAQEAAAAAA"}]})");
