@@ -110,17 +110,19 @@ InsertionStability StabilityOf(std::span<const InsertedFrame> frames, const Text
   for (const Eigen::Vector3d& v : mesh.vertices) box.extend(v);
   InsertionStability result;
   double sum = 0.0, squares = 0.0;
-  std::optional<Eigen::Vector2d> last;
+  Eigen::Vector2d last = Eigen::Vector2d::Zero();
+  bool has_last = false;
   for (const InsertedFrame& frame : frames) {
-    std::optional<Eigen::Vector2d> offset;
+    Eigen::Vector2d offset = Eigen::Vector2d::Zero();
+    bool is_known = false;
     if (frame.pose && frame.truth) {
       const auto drawn = CornersSeen(box, frame.camera, *frame.pose);
       const auto right = CornersSeen(box, frame.camera, *frame.truth);
       if (drawn && right) {
-        offset = Eigen::Vector2d::Zero();
+        is_known = true;
         double error = 0.0;
         for (std::size_t k = 0; k < 8; ++k) {
-          *offset += ((*drawn)[k] - (*right)[k]) / 8.0;
+          offset += ((*drawn)[k] - (*right)[k]) / 8.0;
           error += ((*drawn)[k] - (*right)[k]).norm() / 8.0;
         }
         ++result.frames;
@@ -128,11 +130,12 @@ InsertionStability StabilityOf(std::span<const InsertedFrame> frames, const Text
         result.worst_error_px = std::max(result.worst_error_px, error);
       }
     }
-    if (offset && last) {
+    if (is_known && has_last) {
       ++result.steps;
-      squares += (*offset - *last).squaredNorm();
+      squares += (offset - last).squaredNorm();
     }
     last = offset;
+    has_last = is_known;
   }
   if (result.frames > 0) result.mean_error_px = sum / result.frames;
   if (result.steps > 0) result.jitter_px = std::sqrt(squares / result.steps);

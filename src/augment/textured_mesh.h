@@ -26,7 +26,9 @@ struct TexturedMesh {
   struct Face {
     std::array<std::uint32_t, 3> vertices{};
     std::uint32_t material = 0;
-    std::array<Eigen::Vector2f, 3> uv{};  // of the corners; v upward, repeated beyond [0, 1]
+    // Of the corners; v upward, repeated beyond [0, 1].
+    std::array<Eigen::Vector2f, 3> uv = {
+        Eigen::Vector2f::Zero(), Eigen::Vector2f::Zero(), Eigen::Vector2f::Zero()};
   };
   std::vector<Eigen::Vector3d> vertices;  // east, north, height [m], in a frame of its own
   std::vector<Face> faces;
