@@ -16,7 +16,7 @@ namespace {
 
 int RunVersion(const Context& context) {
   const PJ_INFO proj = proj_info();
-  const nlohmann::ordered_json versions = {{"ridgeline", RIDGELINE_VERSION},
+  const nlohmann::ordered_json versions = {{"ridgeline", VersionNumber()},
                                            {"opencv", CV_VERSION},
                                            {"embree", RTC_VERSION_STRING},
                                            {"gdal", GDALVersionInfo("RELEASE_NAME")},
@@ -33,8 +33,6 @@ int RunVersion(const Context& context) {
 }
 
 }  // namespace
-
-std::string VersionText() { return std::string("ridgeline ") + RIDGELINE_VERSION; }
 
 void AddVersionCommand(CLI::App& app, Context& context) {
   AddCommand(app,
