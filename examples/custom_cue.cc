@@ -92,6 +92,7 @@ class ContrastCue final : public ridgeline::Cue {
     mean_step_ = std::max(1e-3, sum / (2.0 * static_cast<double>(grey.total())));
   }
 
+  // [cue
   // pose.segments are the visible edges of the model, projected into the picture that
   // PictureEvidence holds: reduced, undistorted, in its pixels. What hides what has been dealt
   // with.
@@ -126,6 +127,7 @@ class ContrastCue final : public ridgeline::Cue {
     const double relative = std::min(step / mean_step_, options_.cut_off);
     return relative * (1.0 - 1.0 / options_.factor) - std::log(options_.factor);
   }
+  // cue]
 
   ContrastOptions options_;
   cv::Mat step_x_, step_y_;
@@ -133,6 +135,7 @@ class ContrastCue final : public ridgeline::Cue {
   double mean_step_ = 1.0;
 };
 
+// [table
 // The line of the table. `parts` says what the cue reads of a view: what nobody reads is not
 // computed.
 constexpr ridgeline::CueName kNames[] = {{"contrast", 0.05}};
@@ -143,6 +146,7 @@ constexpr ridgeline::CuePlugin kContrast = {
     .make = [](const ridgeline::CueContext& context) -> std::shared_ptr<const ridgeline::Cue> {
       return std::make_shared<ContrastCue>(context.picture, context.options.Get<ContrastOptions>());
     }};
+// table]
 
 struct Error {
   double position_m = INFINITY;

@@ -64,6 +64,7 @@ class OnePlusOne final : public ridgeline::Strategy {
     Begin();
   }
 
+  // [sampler
   // Random numbers come from (seed, stage, index of the draw) and from nowhere else. This is why a
   // search gives the same result again, on one thread or on eight.
   std::optional<UnitPoint> Propose(std::int64_t /*id*/) override {
@@ -96,6 +97,7 @@ class OnePlusOne final : public ridgeline::Strategy {
     step_ = std::min(options_.first_step, step_ * std::exp(is_success ? 0.8 : -0.2));
     if (step_ < options_.last_step) Begin();
   }
+  // sampler]
 
  private:
   void Begin() {

@@ -2,9 +2,8 @@
 """What mkdocs does not do by itself: pieces of files of the repository in pages, and pages that other
 people add.
 
-A line  --8<-- "FILE"  becomes the file,  "FILE:FIRST:LAST"  those lines of it, and  "FILE:NAME"  what
-stands between the marks  [NAME  and  NAME]  of it, as README's example has them. FILE is looked for in
-docs/, then in the repository.
+A line  --8<-- "FILE"  becomes the file,  "FILE:NAME"  what stands between the marks  // [NAME  and
+// NAME]  of it. FILE is looked for in docs/, then in the repository.
 """
 import pathlib
 import re
@@ -13,13 +12,13 @@ import textwrap
 from mkdocs.exceptions import PluginError
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PIECE = re.compile(r'^--8<-- "([^":]+)(?::(\d+):(\d+)|:(\w+))?"$', re.M)
+PIECE = re.compile(r'^--8<-- "([^":]+)(?::(\w+))?"$', re.M)
 # Pages that join the navigation once they exist.
 LATER = {"papers.md": ("Understand", "The papers in the code"), "python.md": ("Reference", "Python")}
 
 
 def piece(match):
-    name, first, last, mark = match.groups()
+    name, mark = match.groups()
     path = next((p for p in (ROOT / "docs" / name, ROOT / name) if p.is_file()), None)
     if path is None:
         raise PluginError(f"no file {name} for --8<--")
@@ -30,8 +29,6 @@ def piece(match):
         if not begin or not end:
             raise PluginError(f"no marks [{mark} and {mark}] in {name}")
         lines = lines[begin[0] + 1 : end[0]]
-    elif first:
-        lines = lines[int(first) - 1 : int(last)]
     return textwrap.dedent("\n".join(lines))
 
 
