@@ -169,7 +169,8 @@ Error ErrorWith(const ridgeline::LocalizerOptions& options,
 }
 
 // Three times the same photo: without the new cue, with it, and with nothing else. The last is the
-// honest test of a cue: it has to find the pose on its own, if not as closely as all together.
+// honest test of a cue: does it find the pose on its own? Exits with 1 where one of the three misses;
+// alone, this cue does on some photos (few edges, a street under trees).
 int Run(const char* dataset_file, const char* query_id) {
   ridgeline::AddCue(kContrast);  // before any options are made
 

@@ -42,7 +42,7 @@ installed=$(date +%s)
 echo "installed in $((installed - started)) s"
 
 echo "== the first result"
-in_root ridgeline synth --out /root/town --seed 1 --queries 1
+in_root ridgeline synth --out /root/town --queries 1 --tilted 0 --portrait 0 --drone 0
 in_root ridgeline localize --dataset /root/town/dataset.json --query street_000 \
   --out /root/result --report /root/result.html
 echo "invented a town and found a pose in $(($(date +%s) - installed)) s"
