@@ -122,8 +122,10 @@ void AddAugmentCommand(CLI::App& app, Context& context) {
                  context,
                  {"augment",
                   "Draws a planned building into a photo, hidden by what stands before it.",
+                  "ridgeline synth --out new --seed 2 --set town.blocks_east=1 \\\n"
+                  "    --set town.blocks_north=1 --queries 0 --tilted 0 --portrait 0 --drone 0\n"
                   "ridgeline augment --dataset town/dataset.json --query street_000 \\\n"
-                  "    --building tower.obj --place 654100,5412080 --out augmented.jpg"},
+                  "    --building new/city.gml --place 654100,5412080 --out augmented.jpg"},
                  [arguments](Context& c) { return RunAugment(*arguments, c); });
   AddViewOptions(*command, arguments->view);
   command
