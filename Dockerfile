@@ -9,8 +9,7 @@ RUN apt-get update && apt-get install -y --no-install-recommends ca-certificates
 FROM packages AS build
 COPY . /src
 WORKDIR /src
-RUN git config --global --add safe.directory /src && scripts/build.sh ridgeline \
-    && scripts/package.sh
+RUN git config --global --add safe.directory /src && scripts/package.sh
 
 FROM debian:bookworm-slim
 COPY --from=build /src/build/package/ridgeline_*.deb /tmp/

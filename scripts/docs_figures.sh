@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # Makes the figures of the documents, docs/figures/, of the demo town with the release build:
-# docs_figures.sh. Needs the packages imagemagick and chromium. Five minutes on two cores; the same
-# pictures again from the same program.
+# docs_figures.sh. Needs the packages imagemagick and chromium. Some minutes; the same pictures again from
+# the same program, but for the time in the report.
 set -eu
 cd "$(dirname -- "$0")/.."
 for tool in convert chromium; do
@@ -32,6 +32,8 @@ page() {  # NAME WIDTH HEIGHT
   chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --window-size="$2,$3" \
     --screenshot="$PWD/$1.png" "file://$PWD/$1.html" >/dev/null 2>&1
 }
+# A figure is not of one commit.
+sed -i 's/\(ridgeline [0-9.]*\)+[0-9a-z.]*/\1/g' result.html
 page result 1000 1500
 
 photo() {  # FROM NAME
