@@ -51,7 +51,7 @@ void AddCompletionCommand(CLI::App& app, Context& context) {
                  {"completion",
                   "Prints shell completion, or writes man pages.",
                   "eval \"$(ridgeline completion bash)\"  # in ~/.bashrc\n"
-                  "ridgeline completion man --out man1"},
+                  "mkdir -p man1 && ridgeline completion man --out man1"},
                  [arguments, &app](Context& c) { return RunCompletion(*arguments, app, c); });
   command->add_option("what", arguments->what, "bash, zsh or man")
       ->check(CLI::IsMember({"bash", "zsh", "man"}))
