@@ -251,7 +251,7 @@ void WriteResults(const LocalizeArguments& arguments,
         RunJson(run.localization, arguments.seed, VersionText(), options_json, query.assumptions));
     const cv::Mat photo = UndistortImage(BgrOf(pictures.Read(query)), *query.camera);
     WriteOverlay(
-        photo, ResultOverlay(localizer, query.camera->Pinhole(), run), {}, out / "overlay.png");
+        photo, ResultOverlay(localizer, CameraOf(query, run.localization), run), {}, out / "overlay.png");
     WriteMap(data.runs, crs.horizontal_epsg, out / "map.geojson");
     if (!data.runs.empty() && data.runs.front().map) {
       WriteEnergyMap(*data.runs.front().map, crs.horizontal_epsg, out / "energy.tif");

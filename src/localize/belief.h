@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
+#include "city/city_model.h"
 #include "localize/localization.h"
 #include "localize/localizer_options.h"
 #include "localize/search_poses.h"
@@ -14,5 +17,11 @@ void Believe(const SearchedPoses& found,
              const PoseScorer& scorer,
              const ConfidenceOptions& options,
              Localization& result);
+
+// Multiplies the confidence of an answer that lies on no limit by a factor, and decides anew.
+void Reconsider(double factor, const ConfidenceOptions& options, Localization& result);
+
+// A building in words: its id, with that of the building that it is a part of.
+std::string NameOf(const Building& building);
 
 }  // namespace ridgeline
