@@ -159,8 +159,11 @@ Error ErrorWith(const ridgeline::LocalizerOptions& options,
                 const ridgeline::World& world,
                 const ridgeline::Query& query) {
   const ridgeline::Localizer localizer(world.model, world.dtm, options);
-  const ridgeline::Localization found = localizer.Localize(
-      {ridgeline::ReadPicture(query), query.camera.value(), query.prior.value(), {}}, 1, 0);
+  ridgeline::LocalizationInput input;
+  input.picture = ridgeline::ReadPicture(query);
+  input.camera = query.camera.value();
+  input.prior = query.prior.value();
+  const ridgeline::Localization found = localizer.Localize(input, /*seed=*/1, /*threads=*/0);
   if (found.modes.empty()) return {};
   const ridgeline::Pose& pose = found.modes.front().pose;
   const ridgeline::Pose& truth = query.truth.value();
@@ -169,8 +172,8 @@ Error ErrorWith(const ridgeline::LocalizerOptions& options,
 }
 
 // Three times the same photo: without the new cue, with it, and with nothing else. The last is the
-// honest test of a cue: does it find the pose on its own? Exits with 1 where one of the three misses;
-// alone, this cue does on some photos (few edges, a street under trees).
+// honest test of a cue: does it find the pose on its own? Exits with 1 where one of the three
+// misses; alone, this cue does on some photos (few edges, a street under trees).
 int Run(const char* dataset_file, const char* query_id) {
   ridgeline::AddCue(kContrast);  // before any options are made
 

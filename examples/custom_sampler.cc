@@ -140,8 +140,11 @@ double LeastEnergy(const std::string& sampler,
   options.search.evaluations = 3000;
   options.search.refine = false;
   const ridgeline::Localizer localizer(world.model, world.dtm, options);
-  const ridgeline::Localization found = localizer.Localize(
-      {ridgeline::ReadPicture(query), query.camera.value(), query.prior.value(), {}}, 1, 0);
+  ridgeline::LocalizationInput input;
+  input.picture = ridgeline::ReadPicture(query);
+  input.camera = query.camera.value();
+  input.prior = query.prior.value();
+  const ridgeline::Localization found = localizer.Localize(input, /*seed=*/1, /*threads=*/0);
   if (found.modes.empty()) return 1.0;
   const ridgeline::PoseMode& best = found.modes.front();
   std::printf("%-14s energy %.4f", sampler.c_str(), best.energy);

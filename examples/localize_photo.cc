@@ -36,14 +36,15 @@ int Run(const char* dataset_file, const char* query_id) {
   const ridgeline::World world = ridgeline::ReadWorld(dataset, 15.0);
   const ridgeline::Localizer localizer(world.model, world.dtm, options);
 
-  const ridgeline::LocalizationInput input{
-      ridgeline::ReadPicture(query), query.camera.value(), query.prior.value(), {}};
+  ridgeline::LocalizationInput input;
+  input.picture = ridgeline::ReadPicture(query);
+  input.camera = query.camera.value();
+  input.prior = query.prior.value();
   const ridgeline::Localization found = localizer.Localize(input, /*seed=*/1, /*threads=*/0);
 
   if (!found.pose) return std::printf("abstained: %s\n", found.reason.c_str()), 3;
-  const Eigen::Vector3d& place = found.pose->center_in_world;
-  std::printf(
-      "%.2f %.2f %.2f, confidence %.2f\n", place.x(), place.y(), place.z(), found.confidence);
+  const Eigen::Vector3d& p = found.pose->center_in_world;
+  std::printf("%.2f %.2f %.2f, confidence %.2f\n", p.x(), p.y(), p.z(), found.confidence);
   // README]
 
   // The pose is that of the optical axis, too: heading clockwise from grid north, pitch up
@@ -57,7 +58,7 @@ int Run(const char* dataset_file, const char* query_id) {
 
   // In an invented town the truth is known. Nothing above has seen it.
   if (!query.truth) return 0;
-  const double error_m = (place - query.truth->center_in_world).norm();
+  const double error_m = (p - query.truth->center_in_world).norm();
   const double error_deg =
       ridgeline::RotationDistanceDeg(found.pose->cam_from_world, query.truth->cam_from_world);
   std::printf("off by %.2f m, %.2f deg\n", error_m, error_deg);
