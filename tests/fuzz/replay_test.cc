@@ -91,8 +91,8 @@ std::vector<std::string_view> Names() {
   return names;
 }
 
-INSTANTIATE_TEST_SUITE_P(Fuzz, Replay, ::testing::ValuesIn(Names()), [](const auto& info) {
-  return std::string(info.param);
+INSTANTIATE_TEST_SUITE_P(Fuzz, Replay, ::testing::ValuesIn(Names()), [](const auto& param_info) {
+  return std::string(param_info.param);
 });
 
 }  // namespace
