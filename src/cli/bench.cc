@@ -54,6 +54,11 @@ void AddBenchCommand(CLI::App& app, Context& context) {
                    arguments->shard,
                    "The i-th of n parts of the runs; `ridgeline merge` puts them together")
       ->type_name("I/N");
+  command
+      ->add_option("--sensors",
+                   arguments->sensors,
+                   "Priors from a phone's instruments (CSV, docs/skyline.md), by query id")
+      ->type_name("FILE");
   command->add_flag("--no-report", arguments->no_report, "No report.html: for many small runs");
   command->add_option("--seed", arguments->seed, "First seed (default 1)");
   command->add_option("--seeds", arguments->seeds, "Number of seeds (default 1)")

@@ -12,6 +12,7 @@
 #include "cli/idle_options.h"
 #include "cli/out_folder.h"
 #include "cli/progress.h"
+#include "cli/sensor_priors.h"
 #include "cli/version.h"
 #include "eval/protocol.h"
 #include "eval/run_folder.h"
@@ -76,6 +77,12 @@ BenchTask WholeTaskOf(const BenchArguments& arguments,
                       const LocalizerOptions& options,
                       const Context& context) {
   Dataset dataset = ReadDataset(arguments.dataset);
+  if (!arguments.sensors.empty()) {
+    std::vector<std::string> set = arguments.config.set;
+    PriorsFromSensors(
+        arguments.sensors, TakeSensorOptions(arguments.sensors, set), context, dataset);
+    return {BenchQueries(dataset), dataset};
+  }
   const std::optional<Protocol> protocol = ProtocolOf(arguments);
   const PriorPlace place = protocol ? protocol->place : PriorPlace::kDataset;
   if (place != PriorPlace::kPicture) {
@@ -91,6 +98,17 @@ BenchTask WholeTaskOf(const BenchArguments& arguments,
   dataset.name += " in " + other.name;
   return {BenchQueries(*protocol, std::move(dataset), options.search.space, PlacesOf(other)),
           other};
+}
+
+// Instruments and protocols both say what the priors are.
+void CheckSensors(const BenchArguments& arguments) {
+  if (arguments.sensors.empty()) return;
+  const bool has_protocol = !arguments.protocol.empty();
+  if (!has_protocol && arguments.perturb.empty()) return;
+  throw InputError("--sensors",
+                   "",
+                   std::string("instruments beside ") + (has_protocol ? "--protocol" : "--perturb"),
+                   "one of the two: both say what the priors are");
 }
 
 // Of results to be kept.
@@ -113,13 +131,15 @@ std::string ConfigName(const BenchArguments& arguments) {
 LocalizerOptions OptionsOf(const BenchArguments& arguments) {
   LocalizerOptions options;
   const VisitOptions visit = [&](OptionVisitor& v) { options.Visit(v); };
+  ConfigArguments config = arguments.config;
+  TakeSensorOptions(arguments.sensors, config.set);  // which are not a localizer's
   if (!arguments.options_json.empty()) {
     OptionsFromJson(arguments.options_json, kProvenanceFile, visit);
   } else {
-    ApplyConfig(arguments.config, visit);
+    ApplyConfig(config, visit);
   }
   options.Validate();
-  if (arguments.options_json.empty()) RefuseIdleOptions(arguments.config.set, options);
+  if (arguments.options_json.empty()) RefuseIdleOptions(config.set, options);
   return options;
 }
 
@@ -157,6 +177,7 @@ Provenance ProvenanceOf(const BenchArguments& arguments,
                                {"protocol", arguments.protocol},
                                {"world", arguments.world},
                                {"perturb", arguments.perturb},
+                               {"sensors", arguments.sensors},
                                {"queries", arguments.queries},
                                {"sets", arguments.sets},
                                {"seed", arguments.seed},
@@ -164,8 +185,13 @@ Provenance ProvenanceOf(const BenchArguments& arguments,
                                {"config", arguments.config.config},
                                {"set", arguments.config.set}})
                              .dump(-1, ' ', false, Json::error_handler_t::replace);
+  Json of_sensors = Json::array();
+  for (const std::string& assignment : arguments.config.set) {
+    if (assignment.starts_with("sensors.")) of_sensors.push_back(assignment);
+  }
   provenance.task =
-      Json({{"protocol", task.queries.protocol().name},
+      Json({{"sensors", of_sensors},
+            {"protocol", task.queries.protocol().name},
             {"first_seed", arguments.seed},
             {"seeds", arguments.seeds},
             {"queries", queries},
@@ -173,6 +199,7 @@ Provenance ProvenanceOf(const BenchArguments& arguments,
              Json::parse(OptionsToJson([&](OptionVisitor& v) { resolved.Visit(v); }))}})
           .dump(-1, ' ', false, Json::error_handler_t::replace);
   provenance.inputs = HashInputs(dataset, task.queries.usable(), "dataset");
+  if (!arguments.sensors.empty()) AddHashed("sensors", arguments.sensors, provenance.inputs);
   if (!arguments.world.empty()) {
     for (InputFile& input : HashInputs(task.searched, {}, "world")) {
       provenance.inputs.push_back(std::move(input));
@@ -198,6 +225,7 @@ BenchArguments BenchArgumentsFrom(const Provenance& provenance) {
     arguments.protocol = json.at("protocol").get<std::string>();
     arguments.world = json.at("world").get<std::string>();
     arguments.perturb = json.at("perturb").get<std::string>();
+    arguments.sensors = json.at("sensors").get<std::string>();
     arguments.queries = json.at("queries").get<std::vector<std::string>>();
     arguments.sets = json.at("sets").get<std::vector<std::string>>();
     arguments.seed = json.at("seed").get<int>();
@@ -218,6 +246,7 @@ std::string CommandOf(const BenchArguments& arguments) {
   if (!arguments.protocol.empty()) command += " --protocol " + arguments.protocol;
   if (!arguments.world.empty()) command += " --world " + arguments.world;
   if (!arguments.perturb.empty()) command += " --perturb " + arguments.perturb;
+  if (!arguments.sensors.empty()) command += " --sensors " + arguments.sensors;
   for (const std::string& query : arguments.queries) command += " --query " + query;
   for (const std::string& set : arguments.sets) command += " --set-name " + set;
   return command + " --seed " + std::to_string(arguments.seed) + " --seeds " +
@@ -228,6 +257,7 @@ int RunBenchCommand(const BenchArguments& arguments, const Context& context) {
   if (!arguments.score_only.empty()) return RunScoreOnly(arguments, context);
   const LocalizerOptions options = OptionsOf(arguments);
   CheckKeeping(arguments);
+  CheckSensors(arguments);
   BenchOptions bench = BenchOptionsOf(arguments, context);
   const OutFolder out_folder("--out", arguments.out);
   const RunOutputs outputs = OutputsOf(arguments);

@@ -22,6 +22,7 @@ struct BenchArguments {
   std::string world;
   std::string perturb;
   std::string score_only;
+  std::string sensors;
   std::vector<std::string> queries;
   std::vector<std::string> sets;
   bool no_report = false;

@@ -33,6 +33,7 @@ void CheckArguments(const BenchArguments& arguments) {
   const std::pair<bool, const char*> given[] = {{!arguments.protocol.empty(), "--protocol"},
                                                 {!arguments.world.empty(), "--world"},
                                                 {!arguments.perturb.empty(), "--perturb"},
+                                                {!arguments.sensors.empty(), "--sensors"},
                                                 {arguments.seed != defaults.seed, "--seed"},
                                                 {arguments.seeds != defaults.seeds, "--seeds"},
                                                 {arguments.resume, "--resume"},

@@ -3,6 +3,7 @@
 
 #include "cli/augment.h"
 #include "cli/bench.h"
+#include "cli/calibrate.h"
 #include "cli/compare.h"
 #include "cli/completion.h"
 #include "cli/convert.h"
@@ -13,6 +14,7 @@
 #include "cli/merge.h"
 #include "cli/options.h"
 #include "cli/render.h"
+#include "cli/replay.h"
 #include "cli/skyline.h"
 #include "cli/study.h"
 #include "cli/synth.h"
@@ -35,9 +37,11 @@ constexpr AddFunction kCommands[] = {
     AddIndexCommand,
     AddInfoCommand,
     AddConvertCommand,
+    AddCalibrateCommand,
     AddRenderCommand,
     AddSkylineCommand,
     AddAugmentCommand,
+    AddReplayCommand,
     AddSynthCommand,
     AddOptionsCommand,
     AddDoctorCommand,

@@ -5,12 +5,14 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <span>
 #include <sstream>
 #include <vector>
 
 #include "base/atomic_file.h"
 #include "base/decimals.h"
 #include "base/error.h"
+#include "camera/check_pose.h"
 #include "eval/csv_text.h"
 #include "eval/egeniouss_metrics.h"
 
@@ -229,8 +231,10 @@ std::map<std::string, Pose> ReadPosesCsv(const std::filesystem::path& path) {
     }
     Pose pose;
     pose.center_in_world = {values[0], values[1], values[2]};
+    const std::string place = "line " + std::to_string(number);
+    CheckPlace(pose.center_in_world, path.string(), place);
     pose.cam_from_world =
-        Eigen::Quaterniond(values[3], values[4], values[5], values[6]).normalized();
+        UnitQuaternion(std::span(values).subspan(3), path.string(), place + ": qw,qx,qy,qz");
     poses[fields[columns[0]]] = pose;
   }
   if (poses.empty()) throw InputError(path.string(), "", "no pose", "one line per query");

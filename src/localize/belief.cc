@@ -139,9 +139,12 @@ void Believe(const SearchedPoses& found,
   Decide(options, !limits.empty(), result);
 }
 
-void Reconsider(double factor, const ConfidenceOptions& options, Localization& result) {
+void Reconsider(double factor,
+                bool on_limit,
+                const ConfidenceOptions& options,
+                Localization& result) {
   result.confidence *= factor;
-  Decide(options, false, result);
+  Decide(options, on_limit, result);
 }
 
 }  // namespace ridgeline

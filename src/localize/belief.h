@@ -18,8 +18,12 @@ void Believe(const SearchedPoses& found,
              const ConfidenceOptions& options,
              Localization& result);
 
-// Multiplies the confidence of an answer that lies on no limit by a factor, and decides anew.
-void Reconsider(double factor, const ConfidenceOptions& options, Localization& result);
+// Multiplies the confidence of an answer by a factor, and decides anew.
+// @param on_limit  Whether the answer lies on a limit of the search.
+void Reconsider(double factor,
+                bool on_limit,
+                const ConfidenceOptions& options,
+                Localization& result);
 
 // A building in words: its id, with that of the building that it is a part of.
 std::string NameOf(const Building& building);

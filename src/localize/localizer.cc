@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "localize/localizer.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -79,6 +80,14 @@ std::string TooFewLines(std::size_t lines) {
 std::string NoVisibleModel(const Score& score) {
   const std::string unusable = score.unusable();
   return unusable.empty() ? "no admissible pose of the search box sees the model" : unusable;
+}
+
+// Whether two poses are one answer, the second with more freedom.
+bool IsBeside(const PoseSpace::Offset& a, const PoseSpace::Offset& b) {
+  constexpr double kBesideM = 5.0;
+  constexpr double kBesideDeg = 10.0;
+  return std::hypot(a.east_m - b.east_m, a.north_m - b.north_m) < kBesideM &&
+         std::abs(HeadingDifferenceDeg(a.heading_deg, b.heading_deg)) < kBesideDeg;
 }
 
 std::string WordsOf(const RoofShift& shift, const CityModel& model) {
@@ -270,14 +279,19 @@ Localization Localizer::Impl::LocalizeWith(const PictureEvidence& picture,
 }
 
 bool Localizer::Impl::KeepSmallerBox(BoxAnswer& smaller, BoxAnswer& larger) const {
-  // The box asked for is far likelier than what is around it; an answer on its limit is not.
+  // The box asked for is far likelier than what is around it.
   constexpr double kOutsideNat = 6.0;
-  if (!smaller.best || !smaller.limits.empty()) return false;
-  const double advantage =
-      larger.best ? larger.best->log_ratio - smaller.best->log_ratio - kOutsideNat : -kOutsideNat;
-  if (advantage > 0.0) return false;
+  if (!smaller.best || !larger.best) return !larger.best && smaller.best;
+  // Beyond the limit that the answer reached it goes on.
+  if (IsBeside(smaller.best->offset, larger.best->offset)) return false;
+  const double advantage = larger.best->log_ratio - smaller.best->log_ratio - kOutsideNat;
   Localization& result = smaller.result;
-  Reconsider(1.0 / (1.0 + std::exp(advantage)), options.confidence, result);
+  if (advantage > 0.0 && larger.result.confidence >= result.confidence) return false;
+  // What explains less in absolute terms outweighs nothing, whatever its score.
+  Reconsider(1.0 / (1.0 + std::exp(std::min(advantage, 0.0))),
+             !smaller.limits.empty(),
+             options.confidence,
+             result);
   result.evaluations = larger.result.evaluations;
   result.times = std::move(larger.result.times);
   result.notes = std::move(larger.result.notes);
