@@ -240,7 +240,8 @@ std::vector<InputFile> InputsOf(const LocalizeArguments& arguments, const Datase
   const std::pair<const char*, const std::string&> named[] = {
       {"dataset", arguments.query.dataset},
       {"camera", arguments.query.camera},
-      {"prior", arguments.prior}};
+      {"prior", arguments.prior},
+      {"sensors", arguments.sensors}};
   for (const auto& [role, path] : named) {
     if (!path.empty()) AddHashed(role, path, inputs);
   }
