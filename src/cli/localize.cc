@@ -229,6 +229,25 @@ void PrintResult(const BenchRun& run, const Context& context) {
   context.Print(line);
 }
 
+// Files that the result is made of, hashed.
+std::vector<InputFile> InputsOf(const LocalizeArguments& arguments, const Dataset& dataset) {
+  const Query& query = dataset.queries.front();
+  std::vector<InputFile> inputs;
+  AddHashed("image", query.image, inputs);
+  for (const fs::path& model : dataset.model) AddHashed("model", model, inputs);
+  if (dataset.dtm) AddHashed("dtm", *dataset.dtm, inputs);
+  if (query.lines) AddHashed("lines", *query.lines, inputs);
+  const std::pair<const char*, const std::string&> named[] = {
+      {"dataset", arguments.query.dataset},
+      {"camera", arguments.query.camera},
+      {"prior", arguments.prior},
+      {"sensors", arguments.sensors}};
+  for (const auto& [role, path] : named) {
+    if (!path.empty()) AddHashed(role, path, inputs);
+  }
+  return inputs;
+}
+
 // What the search found, in files.
 void WriteResults(const LocalizeArguments& arguments,
                   const Dataset& dataset,
@@ -253,7 +272,13 @@ void WriteResults(const LocalizeArguments& arguments,
     WriteFileAtomically(out / "pose.json", pose_json);
     WriteFileAtomically(
         out / "report.json",
-        RunJson(run.localization, arguments.seed, VersionText(), options_json, query.assumptions));
+        RunJson(run.localization,
+                arguments.seed,
+                VersionText(),
+                options_json,
+                query.assumptions,
+                InputsOf(arguments, dataset),
+                fs::current_path().string()));
     const cv::Mat photo = UndistortImage(BgrOf(pictures.Read(query)), *query.camera);
     WriteOverlay(
         photo, ResultOverlay(localizer, CameraOf(query, run.localization), run), {}, out / "overlay.png");

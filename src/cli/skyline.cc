@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/skyline.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -8,6 +10,7 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "cli/command.h"
+#include "cli/out_folder.h"
 #include "cli/progress.h"
 #include "cli/sequence_input.h"
 #include "cli/skyline_output.h"
@@ -16,6 +19,7 @@
 #include "report/html_report.h"
 #include "report/overlay.h"
 #include "report/overlay_layers.h"
+#include "report/overlay_scale.h"
 #include "report/picture_file.h"
 #include "skyline/skyline_file.h"
 #include "track/skyline_tracker.h"
@@ -80,11 +84,21 @@ class Writer {
     overlay.layers.insert(overlay.layers.end(), after.begin(), after.end());
     overlay.caption = result.id + ": " + result.status;
     const cv::Mat drawn = DrawOverlay(picture, overlay, OverlayDrawOptions{});
-    if (video_) video_->Add(drawn);
+    if (video_) video_->Add(FilmFrame(drawn, picture.rows));
     if (arguments_.overlays) WritePicture(drawn, folder_ / (result.id + "_overlay.jpg"));
   }
 
  private:
+  // All of one size, whatever a frame's legend takes: the photo and two rows of names.
+  static cv::Mat FilmFrame(const cv::Mat& drawn, int photo_rows) {
+    const cv::Size photo(drawn.cols, photo_rows);
+    const int rows = photo_rows + static_cast<int>(std::lround(50.0 * OverlayScale(photo)));
+    cv::Mat frame(rows, drawn.cols, CV_8UC3, cv::Scalar::all(32));
+    const int shared = std::min(rows, drawn.rows);
+    drawn.rowRange(0, shared).copyTo(frame.rowRange(0, shared));
+    return frame;
+  }
+
   std::vector<OverlayLayer> LayersBefore(const SkylineFrameResult& result,
                                          const SkylineFrame& frame,
                                          const PinholeCamera& camera) const {
@@ -307,6 +321,11 @@ std::string CommandOf(const SkylineArguments& arguments) {
   return command + " --out " + arguments.out;
 }
 
+// Of a file that is to be written; empty for none.
+fs::path FolderOf(const fs::path& file) {
+  return file.empty() ? fs::path() : fs::absolute(file).lexically_normal().parent_path();
+}
+
 int RunSkyline(SkylineArguments& arguments, const Context& context) {
   ApplyConfig(arguments.config, [&](OptionVisitor& v) { arguments.Visit(v); });
   arguments.track.Validate();
@@ -331,7 +350,10 @@ int RunSkyline(SkylineArguments& arguments, const Context& context) {
   for (const std::string& note : input->notes) context.Note(note);
   for (const std::string& warning : input->warnings) context.Warn(warning);
 
-  if (!arguments.report.empty()) TemporaryBeside(arguments.report);  // fails before the work
+  // Fails before the work; the folder of the frames comes to its place after it.
+  const fs::path report_folder = FolderOf(arguments.report);
+  const bool beside_frames = report_folder == FolderOf(out / "frames.csv");
+  const OutFolder made("--report", beside_frames ? fs::path() : report_folder);
   const fs::path temporary = TemporaryBeside(out);
   fs::create_directory(temporary);
   std::optional<SkylineReport> report;

@@ -64,6 +64,14 @@ Json JsonOf(const Summary& summary, const Protocol& protocol) {
   json["rotation_error_deg"] = has_truth ? JsonOf(summary.rotation_deg) : Json();
   json["abstained"] = summary.abstained.share;
   json["abstained_ci95"] = JsonOf(summary.abstained)["ci95"];
+  if (summary.searched == 0) {
+    json["with_energy"] = summary.judged;
+    for (const char* key : {"doubtful", "confidence_0.9", "coverage_95", "seconds_per_query",
+                            "pose_evaluations_per_second"}) {
+      json[key] = nullptr;
+    }
+    return json;
+  }
   json["doubtful"] = JsonOf(summary.doubtful);
   json["confidence_0.9"] = JsonOf(summary.confident);
   json["confidence_0.9"]["recall_2m_2deg"] =
@@ -119,7 +127,11 @@ std::string ResultsCsv(std::span<const RunRecord> runs) {
     } else {
       csv << ",,,";
     }
-    csv << run.evaluations << ',' << CsvNumber(run.seconds, 3) << '\n';
+    if (run.is_searched) {
+      csv << run.evaluations << ',' << CsvNumber(run.seconds, 3) << '\n';
+    } else {
+      csv << ",\n";
+    }
   }
   return csv.str();
 }

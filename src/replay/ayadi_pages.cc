@@ -103,7 +103,7 @@ void AddTable(std::span<const AyadiRun> runs, ReplayPage& page) {
 }
 
 void AddCurves(const AyadiRun& run, ReplayPage& page) {
-  cv::Mat picture = ChartPaper(1100, 440);
+  Drawing picture = ChartPaper(1100, 440);
   Chart chart;
   chart.title = "L1 by frame, " + run.variant.name;
   chart.x = {"frame", {}, {}, {}};
@@ -118,10 +118,10 @@ void AddCurves(const AyadiRun& run, ReplayPage& page) {
     }
     chart.series.push_back(std::move(series));
   }
-  DrawChart(chart, {0, 0, picture.cols, picture.rows}, picture);
+  DrawChart(chart, {0, 0, picture.width(), picture.height()}, picture);
   page.Picture("fig11_" + run.variant.name + ".png",
                "Fig. 11, " + run.variant.name + ": L1 over all columns by frame, four methods",
-               picture);
+               picture.Picture());
 }
 
 std::string FramesCsv(std::span<const AyadiRun> runs) {
@@ -333,13 +333,13 @@ void AddAyadiDomain(const AyadiDomain& domain,
         frame.truth->center_in_world - frame.instruments.center_in_world;
     grid.marks.push_back({"truth", off.x(), off.y(), 0, {30, 90, 220}});
   }
-  cv::Mat picture = ChartPaper(760, 640);
-  DrawGrid(grid, {0, 0, picture.cols, picture.rows}, picture);
+  Drawing picture = ChartPaper(760, 640);
+  DrawGrid(grid, {0, 0, picture.width(), picture.height()}, picture);
   page.Heading("Fig. 9: exploration of the positions");
   page.Picture("fig9.png",
                "Every " + TableNumber(domain.spacing_m, 1) +
                    " m around the instruments' position the least distance of a 3D match",
-               picture);
+               picture.Picture());
   std::string csv = "east_m,north_m,l1_px\n";
   for (std::size_t i = 0; i < domain.distance_px.size(); ++i) {
     csv += CsvNumber((static_cast<int>(i % domain.cells) - steps) * domain.spacing_m, 2) + ',' +

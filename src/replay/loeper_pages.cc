@@ -26,7 +26,7 @@ cv::Mat ScatterOf(std::span<const LoeperRun* const> runs,
                   double limit,
                   double LoeperSample::*error) {
   constexpr int kPanelPx = 460;
-  cv::Mat picture = ChartPaper(kPanelPx * static_cast<int>(iterations.size()), kPanelPx);
+  Drawing picture = ChartPaper(kPanelPx * static_cast<int>(iterations.size()), kPanelPx);
   for (std::size_t i = 0; i < iterations.size(); ++i) {
     Chart chart;
     chart.title = std::to_string(iterations[i]) + " iterations";
@@ -46,7 +46,7 @@ cv::Mat ScatterOf(std::span<const LoeperRun* const> runs,
     }
     DrawChart(chart, {kPanelPx * static_cast<int>(i), 0, kPanelPx, kPanelPx}, picture);
   }
-  return picture;
+  return picture.Picture();
 }
 
 void AddScatter(std::span<const LoeperMethod> methods,

@@ -49,6 +49,9 @@ const std::map<std::string, std::string>& Bases() {
       {"bench", "bench {town}/dataset.json --out {out}/r" + kQuick},
       {"study",
        "study {town}/dataset.json --score line_energy --perturb 1,1,0,2 --classes 4 --out {out}/r"},
+      {"merge", "merge {results}/part1 {results}/part2 --out {out}/r"},
+      {"compare", "compare {results}/a {results}/b --out {out}/r"},
+      {"verify", "verify {results}/a"},
       {"index", "index {town}/city.gml --out {out}/c.gpkg"},
       {"info", "info {town}/city.gml"},
       {"convert", "convert {town}/dataset.json --out {out}/x.kml"},
@@ -94,6 +97,9 @@ const std::map<std::string, std::map<std::string, std::string>>& Cases() {
         {"--world", "--world {town}/dataset.json"},
         {"--sensors", "--sensors {in}/none.csv"},
         {"--no-report", "--no-report"},
+        {"--query", "--query none"},
+        {"--set-name", "--set-name none"},
+        {"--shard", "--shard 2/2"},
         {"--seed", "--seed 2"},
         {"--seeds", "--seeds 2"},
         {"--score-only", "--score-only {in}/poses.csv"},
@@ -106,6 +112,8 @@ const std::map<std::string, std::map<std::string, std::string>>& Cases() {
        {{"dataset", "--=study {in}/none.json"},
         {"--score", "--score skyline_l1"},
         {"--query", "--query none"},
+        {"--set-name", "--set-name none"},
+        {"--shard", "--shard 2/2"},
         {"--out", "--out {out}/other"},
         {"--report", "--report {out}/s.html"},
         {"--perturb", "--perturb 1,1,0,4"},
@@ -116,6 +124,17 @@ const std::map<std::string, std::map<std::string, std::string>>& Cases() {
         {"--explore", "--explore"},
         {"--config", "--config {in}/config.json"},
         {"--set", "--set search.map.heading_step_deg=2"}}},
+      {"merge",
+       {{"folders", "--=merge {results}/a {results}/part2"},
+        {"--out", "--out {out}/other"},
+        {"--report", "--report {out}/m.html"},
+        {"--no-report", "--no-report"}}},
+      {"compare",
+       {{"results", "--=compare {results}/b {results}/a"},
+        {"--name", "--name one,two"},
+        {"--out", "--out {out}/other"},
+        {"--dataset", "--dataset {in}/none.json"}}},
+      {"verify", {{"folder", "--=verify {in}"}, {"--rerun", "--rerun 1"}}},
       {"index",
        {{"tiles", "--=index {in}/none.gml"},
         {"--out", "--out {out}/other.gpkg"},
@@ -233,7 +252,22 @@ const std::map<std::string, std::map<std::string, std::string>>& Cases() {
 // is said of the work; tested as such elsewhere (program_test.cc).
 const std::set<std::string> kNotOfResults = {
     "--help", "--help-all", "--version", "--quiet", "--json", "--threads", "doctor --quick",
-    "version --verbose"};
+    "version --verbose", "bench --resume", "study --resume"};
+
+// Results of bench: the same with two searches, and one of them in two parts; made once.
+const fs::path& Results() {
+  static const fs::path results = [] {
+    const fs::path folder = Scratch("options results");
+    const std::string bench =
+        "bench --no-report " + Quoted(Town() / "dataset.json") + " --seeds 2" + kQuick + " --out ";
+    Ridgeline(bench + Quoted(folder / "a"));
+    Ridgeline(bench + Quoted(folder / "b") + " --set search.evaluations=16");
+    Ridgeline(bench + Quoted(folder / "part1") + " --shard 1/2");
+    Ridgeline(bench + Quoted(folder / "part2") + " --shard 2/2");
+    return folder;
+  }();
+  return results;
+}
 
 class Options : public ::testing::Test {
  protected:
@@ -314,6 +348,7 @@ class Options : public ::testing::Test {
       for (const auto& [name, value] : {std::pair<std::string, std::string>{"{in}", in_.string()},
                                         {"{out}", out_.string()},
                                         {"{town}", Town().string()},
+                                        {"{results}", Results().string()},
                                         {"{place}", place_},
                                         {"{here}", here_},
                                         {"{turned}", turned_}}) {
@@ -332,7 +367,8 @@ class Options : public ::testing::Test {
     EXPECT_NE(outcome.exit_code, 1) << outcome.text;
     std::string seen = std::to_string(outcome.exit_code) + "\n";
     const std::string& command = words.front();
-    const bool text_is_result = command == "info" || command == "options" || command == "completion";
+    const bool text_is_result = command == "info" || command == "options" ||
+                                command == "completion" || command == "verify";
     if (text_is_result || outcome.exit_code == 2) seen += outcome.text;
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(out_)) {
@@ -354,6 +390,7 @@ class Options : public ::testing::Test {
     static const std::set<std::string> timed = {
         "summary.json", "results.csv", "frames.csv", "figures.csv", "summary.csv"};
     static const std::set<std::string> kinds = {".html", ".mp4", ".gpkg"};
+    if (file.parent_path().filename() == "runs") return "";
     if (timed.contains(name) || kinds.contains(file.extension())) return "";
     return ReadFile(file);
   }
