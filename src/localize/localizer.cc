@@ -240,7 +240,10 @@ Localizer::Impl::BoxAnswer Localizer::Impl::AnswerOf(const PictureEvidence& pict
   // Believe: as much as the evidence carries.
   Believe(found, scorer, options.confidence, result);
   lap("confidence");
-  answer.best = WithRoofsInDoubt(picture, space, seed, threads, found.modes.front(), result);
+  // A sampler keeps to its evaluations.
+  answer.best = options.search.method == "map"
+                    ? WithRoofsInDoubt(picture, space, seed, threads, found.modes.front(), result)
+                    : found.modes.front();
   answer.limits = LimitsReached(answer.best->offset, space);
   lap("roofs");
   return answer;
