@@ -32,8 +32,8 @@ struct ConfidenceOptions {
   double doubtful_below = 0.6;
   // That an answer is within 2 m and 2 degrees, and that it is within 5 m and 5 degrees; for scores
   // that judge no buildings the confidence is the posterior mass.
-  OutcomeModel right{-5.9, 3.7, 0.24, 1.34};
-  OutcomeModel near{-5.0, 3.7, 0.28, 0.5};
+  OutcomeModel right{-7.4, 6.0, 0.30, 1.28};
+  OutcomeModel near{-8.3, 6.6, 0.33, 0.31};
   // Answers whose protection level is above this are withheld [m]; 0: none are.
   double alert_limit_m = 0.0;
   // Widens the posterior, since samples of a picture are correlated.
