@@ -416,16 +416,14 @@ TEST(RasterLimit, GridsThatAreTurnedAreBoundedByWhatComesOut) {
   CityModel model;
   model.crs = {25832, 0};
   model.origin_in_world = {654000.0, 5412000.0, 400.0};
-  for (const auto& file : {vrt("long.vrt", "653500, 1, 0, 5412050, 0, -0.001"),
-                           vrt("sheared.vrt", "653500, 1, 1000, 5412050, 0, -1")}) {
-    std::vector<std::string> warnings;
-    try {
-      ReadDtm(file, model, {-450.0, -45.0}, {450.0, 45.0}, 0.0, warnings);
-      FAIL() << file;
-    } catch (const InputError& e) {
-      EXPECT_THAT(e.what(), HasSubstr("limit: got "));
-      EXPECT_THAT(e.what(), HasSubstr("a grid that is not square and north up"));
-    }
+  const std::filesystem::path file = vrt("long.vrt", "653500, 1, 0, 5412050, 0, -0.001");
+  std::vector<std::string> warnings;
+  try {
+    ReadDtm(file, model, {-450.0, -45.0}, {450.0, 45.0}, 0.0, warnings);
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("long.vrt: limit: got "));
+    EXPECT_THAT(e.what(), HasSubstr("a grid that is not square and north up"));
   }
 }
 
