@@ -200,13 +200,37 @@ void CheckSize(const Window& window, const std::string& file) {
           " (a coarser raster, or a smaller place)");
 }
 
+// The same for a window that is to be turned north up onto square cells: those of its upright box
+// count, which is large where a grid is sheared or its cells are long, and each is held three
+// times.
+void CheckTurned(const GeoTransform& g, const Window& window, const std::string& file) {
+  constexpr double kCopies = 4.0;
+  Eigen::AlignedBox2d box;
+  for (const double column : {0.0, static_cast<double>(window.columns)}) {
+    for (const double row : {0.0, static_cast<double>(window.rows)}) {
+      box.extend(Eigen::Vector2d(column * g.c[1] + row * g.c[2], column * g.c[4] + row * g.c[5]));
+    }
+  }
+  const double cell_area = std::abs(g.c[1] * g.c[5] - g.c[2] * g.c[4]);
+  const double cells =
+      std::max(box.sizes().prod() / cell_area, static_cast<double>(window.columns) * window.rows);
+  if (cells * kCopies <= static_cast<double>(limits::kRasterCells)) return;  // false for NaN
+  throw InputError(file,
+                   "limit",
+                   std::to_string(window.columns) + " x " + std::to_string(window.rows) +
+                       " cells to be read from a grid that is not square and north up",
+                   "at most " +
+                       std::to_string(limits::kRasterCells / static_cast<std::int64_t>(kCopies)) +
+                       " north up (gdalwarp makes it so)");
+}
+
 // The window as a grid of heights [m] in memory, what is missing NaN.
 GdalDatasetPtr CleanCopy(const GeoTransform& g,
                          const Window& window,
                          const OGRSpatialReference* system,
                          RasterValues& values,
                          const std::string& file) {
-  CheckSize(window, file);
+  CheckTurned(g, window, file);
   GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("MEM");
   GdalDatasetPtr copy(driver->Create("", window.columns, window.rows, 1, GDT_Float64, nullptr));
   if (copy == nullptr)

@@ -403,5 +403,29 @@ TEST(RasterLimit, HugeRastersAreReadNearThePlaceOnly) {
   }
 }
 
+// 10^8 cells of 1 m x 1 mm would become as many of 3 cm, held several times.
+TEST(RasterLimit, GridsThatAreTurnedAreBoundedByWhatComesOut) {
+  const TestFolder folder;
+  const auto vrt = [&](const std::string& name, const std::string& transform) {
+    return folder.Write(name,
+                        "<VRTDataset rasterXSize=\"1000\" rasterYSize=\"100000\"><GeoTransform>" +
+                            transform +
+                            "</GeoTransform><VRTRasterBand dataType=\"Float32\" band=\"1\"/>"
+                            "</VRTDataset>");
+  };
+  CityModel model;
+  model.crs = {25832, 0};
+  model.origin_in_world = {654000.0, 5412000.0, 400.0};
+  const std::filesystem::path file = vrt("long.vrt", "653500, 1, 0, 5412050, 0, -0.001");
+  std::vector<std::string> warnings;
+  try {
+    ReadDtm(file, model, {-450.0, -45.0}, {450.0, 45.0}, 0.0, warnings);
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("long.vrt: limit: got "));
+    EXPECT_THAT(e.what(), HasSubstr("a grid that is not square and north up"));
+  }
+}
+
 }  // namespace
 }  // namespace ridgeline::testing
