@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "base/gdal_handles.h"
+#include "base/limits.h"
 #include "city/crs.h"
 #include "city/format/web_file.h"
 #include "city/open_raster.h"
@@ -23,8 +24,6 @@
 
 namespace ridgeline {
 namespace {
-
-constexpr std::int64_t kMaxCells = 100'000'000;  // of the part that is read
 
 // The file itself, or the copy of one on a web server.
 std::string LocalFile(const std::string& file, std::vector<std::string>& warnings) {
@@ -192,12 +191,13 @@ Window WindowAround(const GeoTransform& g,
 
 void CheckSize(const Window& window, const std::string& file) {
   const std::int64_t cells = std::int64_t{window.columns} * window.rows;
-  if (cells <= kMaxCells) return;
+  if (cells <= limits::kRasterCells) return;
   throw InputError(
       file,
       "limit",
       std::to_string(window.columns) + " x " + std::to_string(window.rows) + " cells to be read",
-      "at most " + std::to_string(kMaxCells) + " (a coarser raster, or a smaller place)");
+      "at most " + std::to_string(limits::kRasterCells) +
+          " (a coarser raster, or a smaller place)");
 }
 
 // The window as a grid of heights [m] in memory, what is missing NaN.

@@ -256,7 +256,7 @@ void WriteResults(const LocalizeArguments& arguments,
         RunJson(run.localization, arguments.seed, VersionText(), options_json, query.assumptions));
     const cv::Mat photo = UndistortImage(BgrOf(pictures.Read(query)), *query.camera);
     WriteOverlay(
-        photo, ResultOverlay(localizer, query.camera->Pinhole(), run), {}, out / "overlay.png");
+        photo, ResultOverlay(localizer, CameraOf(query, run.localization), run), {}, out / "overlay.png");
     WriteMap(data.runs, crs.horizontal_epsg, out / "map.geojson");
     if (!data.runs.empty() && data.runs.front().map) {
       WriteEnergyMap(*data.runs.front().map, crs.horizontal_epsg, out / "energy.tif");
@@ -341,10 +341,10 @@ void AddLocalizeCommand(CLI::App& app, Context& context) {
       context,
       {"localize",
        "Finds the pose of one picture.",
-       "ridgeline localize photo.jpg --model city.gpkg --dtm dtm.tif\n"
-       "ridgeline localize photo.jpg --model city.gml --dtm dtm.tif --camera camera.json \\\n"
-       "    --prior prior.json --out result --report result.html\n"
-       "ridgeline localize --dataset town/dataset.json --query street_000 --out result"},
+       "ridgeline localize --dataset town/dataset.json --query street_000 \\\n"
+       "    --out result --report result.html\n"
+       "# a photo of your own with GNSS in its EXIF, or with --camera and --prior files:\n"
+       "# ridgeline localize photo.jpg --model tiles/ --dtm dtm.tif --out result"},
       [arguments](Context& c) { return RunLocalize(*arguments, c); });
   command->add_option("image", arguments->query.image, "Picture");
   AddQueryOptions(*command, arguments->query);

@@ -368,8 +368,8 @@ void AddSkylineCommand(CLI::App& app, Context& context) {
       {"skyline",
        "Corrects the poses of frames by matching the skyline; without a model, extracts it.",
        "ridgeline skyline --dataset walk/dataset.json --sensors walk/sensors.csv --out poses\n"
-       "ridgeline skyline --frames walk.mp4 --model city.gml --dtm dtm.tif --camera cam.json \\\n"
-       "    --sensors walk.csv --set match.method=2x2d --out poses --video overlay.mp4"},
+       "ridgeline skyline --dataset walk/dataset.json --sensors walk/sensors.csv \\\n"
+       "    --set match.method=2x2d --out poses_2x2d --video overlay.mp4 --report poses.html"},
       [arguments](Context& c) { return RunSkyline(*arguments, c); });
   AddSequenceOptions(*command, arguments->sequence);
   command->add_option("--out", arguments->out, "Folder for frames.csv and the rest")

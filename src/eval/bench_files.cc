@@ -5,12 +5,14 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <span>
 #include <sstream>
 #include <vector>
 
 #include "base/atomic_file.h"
 #include "base/decimals.h"
 #include "base/error.h"
+#include "camera/check_pose.h"
 #include "eval/csv_text.h"
 #include "eval/egeniouss_metrics.h"
 
@@ -124,12 +126,13 @@ std::string ResultsCsv(std::span<const RunRecord> runs) {
 
 std::string EvidenceCsv(std::span<const RunRecord> runs) {
   std::ostringstream csv;
-  csv << "query,seed,set,status,confidence,posterior_mass,explained,observed_nat,candidate_t_err_m,"
-         "candidate_r_err_deg\n";
+  csv << "query,seed,set,status,confidence,posterior_mass,explained,observed_nat,above_background_nat,"
+         "candidate_t_err_m,candidate_r_err_deg\n";
   for (const RunRecord& run : runs) {
     csv << CsvField(run.query) << ',' << run.seed << ',' << CsvField(run.set) << ',' << run.status
         << ',' << CsvNumber(run.confidence, 6) << ',' << CsvNumber(run.posterior_mass, 6) << ','
-        << CsvNumber(run.explained, 4) << ',' << CsvNumber(run.observed_nat, 3) << ',';
+        << CsvNumber(run.explained, 4) << ',' << CsvNumber(run.observed_nat, 3) << ','
+        << (run.above_background_nat ? CsvNumber(*run.above_background_nat, 3) : "") << ',';
     if (run.candidate_error) {
       csv << CsvNumber(run.candidate_error->translation_m, 4) << ','
           << CsvNumber(run.candidate_error->rotation_deg, 5);
@@ -216,8 +219,10 @@ std::map<std::string, Pose> ReadPosesCsv(const std::filesystem::path& path) {
     }
     Pose pose;
     pose.center_in_world = {values[0], values[1], values[2]};
+    const std::string place = "line " + std::to_string(number);
+    CheckPlace(pose.center_in_world, path.string(), place);
     pose.cam_from_world =
-        Eigen::Quaterniond(values[3], values[4], values[5], values[6]).normalized();
+        UnitQuaternion(std::span(values).subspan(3), path.string(), place + ": qw,qx,qy,qz");
     poses[fields[columns[0]]] = pose;
   }
   if (poses.empty()) throw InputError(path.string(), "", "no pose", "one line per query");

@@ -232,7 +232,8 @@ const std::map<std::string, std::map<std::string, std::string>>& Cases() {
 // Options that do not touch results: by contract the same on any number of threads, or about what
 // is said of the work; tested as such elsewhere (program_test.cc).
 const std::set<std::string> kNotOfResults = {
-    "--help", "--help-all", "--version", "--quiet", "--json", "--threads", "doctor --quick"};
+    "--help", "--help-all", "--version", "--quiet", "--json", "--threads", "doctor --quick",
+    "version --verbose"};
 
 class Options : public ::testing::Test {
  protected:

@@ -80,6 +80,19 @@ TEST(Program, JsonIsJsonAndNothingElse) {
   EXPECT_TRUE(json.contains("ridgeline"));
 }
 
+TEST(Program, NamesItsLibrariesWithVersionsAndLicences) {
+  const auto json =
+      nlohmann::json::parse(Ridgeline("version --verbose --json").text, nullptr, false);
+  ASSERT_TRUE(json.contains("libraries"));
+  std::size_t with_version = 0;
+  for (const auto& library : json["libraries"]) {
+    EXPECT_NE(library["licence"], "") << library;
+    if (library["version"] != "") ++with_version;
+  }
+  EXPECT_GE(with_version, 11u);
+  EXPECT_THAT(Ridgeline("version --verbose").text, HasSubstr("gdal 3"));
+}
+
 TEST(Program, WritesNoColoursIntoAPipe) {
   EXPECT_THAT(Ridgeline("bensh").text, Not(HasSubstr("\033[")));
 }

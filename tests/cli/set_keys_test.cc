@@ -176,10 +176,10 @@ const std::map<std::string, std::string>& Values() {
       {"confidence.doubtful_below", "1"},
       {"confidence.alert_limit_m", "0.001"},
       // A gross error is out of the question then, and there is a protection level.
-      {"confidence.gross.offset", "-50"},
-      {"confidence.gross.mass", "-50"},
-      {"confidence.gross.explained", "-80"},
-      {"confidence.gross.observed", "-30"}};
+      {"confidence.near.offset", "50"},
+      {"confidence.near.explained", "80"},
+      {"confidence.near.above_background", "30"},
+      {"confidence.near.mass_power", "0"}};
   return values;
 }
 

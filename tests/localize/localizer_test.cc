@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "city/raise_roofs.h"
 #include "eval/metrics.h"
 #include "eval/pose_json.h"
 #include "optim/sampler_table.h"
@@ -190,6 +191,28 @@ TEST_F(LocalizerOnAStreet, ABoxWithoutTheTruthIsMadeLarger) {
   ASSERT_FALSE(found.modes.empty());
   EXPECT_LT(ErrorOf(found.modes.front().pose, truth_).translation_m, 2.0);
   EXPECT_THAT(found.notes, ::testing::ElementsAre(::testing::StartsWith("searched further: ")));
+}
+
+TEST_F(LocalizerOnAStreet, ARoofThatIsTooLowInTheModelIsRaisedAndNamed) {
+  // House 2, on the left.
+  const CityModel wrong = WithShiftedRoofs(model_, std::vector<RoofShift>{{2, -1.5}});
+  const Localization found = Localizer(wrong, std::nullopt, Options()).Localize(input_, 1, 0);
+  ASSERT_TRUE(found.pose.has_value()) << found.reason;
+  EXPECT_LT(ErrorOf(*found.pose, truth_).translation_m, 0.5);
+  EXPECT_THAT(found.doubts,
+              ::testing::Contains(::testing::MatchesRegex(
+                  ".*" + model_.buildings[2].id + ": its roof is taken \\+1\\.[2-8] m .*")));
+  const Localization right = localizer_.Localize(input_, 1, 0);
+  EXPECT_THAT(right.doubts, ::testing::Not(::testing::Contains(::testing::HasSubstr("roof"))));
+}
+
+TEST_F(LocalizerOnAStreet, AFocalLengthInDoubtIsFoundWithThePose) {
+  input_.camera.params[0] = input_.camera.params[1] = 640.0;
+  input_.focal_lengths = {{640.0, 2.0, "with the zoom"}, {500.0, 2.0, "without"}};
+  const Localization found = localizer_.Localize(input_, 1, 0);
+  ASSERT_TRUE(found.pose.has_value()) << found.reason;
+  EXPECT_NEAR(*found.focal_px, 500.0, 11.0);
+  EXPECT_LT(ErrorOf(*found.pose, truth_).translation_m, 0.5);
 }
 
 TEST_F(LocalizerOnAStreet, GreyDeepAndTransparentPicturesAreRead) {
