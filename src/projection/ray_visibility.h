@@ -14,7 +14,7 @@
 namespace ridgeline {
 
 // Visibility of edges by rays to samples of them: a cross-check of Scene::VisibleFrom(), which is
-// exact and about as fast, and shares no code with it. The same rules: a face hides what lies deeper
+// exact; shares no code with it but the faces. The same rules: a face hides what lies deeper
 // than surface_tolerance_m behind its plane, and the terrain as if it lay terrain_tolerance_m lower.
 // Thread-safe.
 class RayVisibility {

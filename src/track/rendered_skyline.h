@@ -11,8 +11,8 @@ namespace ridgeline {
 
 // The model's skyline from a position as Ayadi et al. find it: extracted from rendered images by the
 // same algorithm as the picture's (section 3, step 4). Level views of 60 degrees each cover the
-// sector. Scene::SkylineFrom() is exact and some hundred times as fast; this is off by up to half a
-// pixel and by what Canny and the path make of it.
+// sector. Scene::SkylineFrom() is exact and needs no image; this is off by what pixels, Canny and the
+// path make of it.
 //
 // @param px_per_rad  Resolution of the images; that of the camera.
 // Unit vectors to the points of the skyline, by azimuth.

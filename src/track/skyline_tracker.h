@@ -19,7 +19,7 @@ struct SkylineTrackOptions {
   // "path": ours; "canny": the paper's; "file": found by another program (skyline_file.h).
   std::string extractor = "path";
   // The model's skyline: "exact" from its edges, or "rendered": extracted from images of the model by
-  // the paper's way (rendered_skyline.h), some hundred times slower.
+  // the paper's way (rendered_skyline.h), which is slow.
   std::string virtual_skyline = "exact";
   // Where a frame's match begins: "sensors", or "last": the sensors with what the last good match
   // corrected (the paper's outlook), since their errors drift slowly.
