@@ -136,17 +136,17 @@ TEST(Inserter, ItsShadowFallsOnTheTerrain) {
   const cv::Mat without = Insert(city, options, {}, &flat).picture;
   options.shadows = true;
   const cv::Mat with = Insert(city, options, {}, &flat).picture;
-  // The shadow of a wall 8 m high, whose far edge is 54 m off, ends 8 / tan 30 = 13.9 m before it.
+  // The upper edge of the front, 8 m high and 46 m off, throws it 8 / tan 30 = 13.9 m: to 32.1 m.
   const auto row_of = [](double north_m) {
     return static_cast<int>(120.0 + kFocalPx * 1.6 / north_m);
   };
-  EXPECT_EQ(without.at<cv::Vec3b>(row_of(44.0), 160), kPhoto);
-  EXPECT_LT(with.at<cv::Vec3b>(row_of(44.0), 160)[2], 0.9 * kPhoto[2]);
-  EXPECT_EQ(with.at<cv::Vec3b>(row_of(36.0), 160), kPhoto);
-  EXPECT_EQ(with.at<cv::Vec3b>(row_of(44.0), 20), kPhoto);  // beside it
+  EXPECT_EQ(without.at<cv::Vec3b>(row_of(42.0), 160), kPhoto);
+  EXPECT_LT(with.at<cv::Vec3b>(row_of(42.0), 160)[2], 0.9 * kPhoto[2]);
+  EXPECT_EQ(with.at<cv::Vec3b>(row_of(29.0), 160), kPhoto);
+  EXPECT_EQ(with.at<cv::Vec3b>(row_of(42.0), 20), kPhoto);  // beside it
   // No sun, no shadow.
   options.towards_sun = Towards(0.0, -5.0);
-  EXPECT_EQ(Insert(city, options, {}, &flat).picture.at<cv::Vec3b>(row_of(44.0), 160), kPhoto);
+  EXPECT_EQ(Insert(city, options, {}, &flat).picture.at<cv::Vec3b>(row_of(42.0), 160), kPhoto);
 }
 
 TEST(Inserter, ANeighboursShadowFallsOnIt) {

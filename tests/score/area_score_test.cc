@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <numbers>
+#include <string>
 #include <opencv2/imgcodecs.hpp>
 
 #include "base/error.h"
@@ -82,8 +83,8 @@ TEST_F(AreasOfAHouse, OfAPerfectSegmentationIsLeastAtTheTruth) {
   for (const char* parts : {"building", "roof_wall"}) {
     const AreaOptions options = FromFile(Classes(), parts);
     const double truth = EnergyAt(0.0, options);
-    // Cells of 3 px: the outline's are mixed.
-    EXPECT_LT(truth, 0.12) << parts;
+    // Cells of 3 px: those of the outline are mixed, and of the roof, seen flatly, half of all.
+    EXPECT_LT(truth, std::string(parts) == "building" ? 0.12 : 0.45) << parts;
     for (const double heading : {-6.0, -3.0, 3.0, 6.0}) {
       EXPECT_GT(EnergyAt(heading, options), truth + 0.05) << parts << " at " << heading;
     }
