@@ -27,6 +27,7 @@ struct SensorReading {
   std::optional<double> roll_deg;     // see roll_sense
   std::optional<Eigen::Vector3d> acceleration;  // device axes; at rest upward, any unit
   std::optional<double> pressure_hpa;
+  std::optional<double> speed_m_s;  // of the wheels; backward: negative
 };
 
 struct SensorOptions {
@@ -57,7 +58,8 @@ struct SensorOptions {
 };
 
 // Reads a CSV with a header; '#' starts a comment line. Columns: id, time_s, lat_deg, lon_deg,
-// alt_m, compass_heading_deg, pitch_deg, roll_deg, acc_x, acc_y, acc_z, pressure_hpa; all but id
+// alt_m, compass_heading_deg, pitch_deg, roll_deg, acc_x, acc_y, acc_z, pressure_hpa, speed_m_s;
+// all but id
 // are optional, and empty fields are missing values. Throws InputError naming line and column for
 // unknown or repeated columns, rows of a wrong length, values that are not numbers or out of range,
 // and two rows with one id.
