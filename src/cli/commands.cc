@@ -14,6 +14,7 @@
 #include "cli/skyline.h"
 #include "cli/study.h"
 #include "cli/synth.h"
+#include "cli/track.h"
 #include "cli/version.h"
 
 namespace ridgeline {
@@ -31,6 +32,7 @@ constexpr AddFunction kCommands[] = {
     AddConvertCommand,
     AddRenderCommand,
     AddSkylineCommand,
+    AddTrackCommand,
     AddAugmentCommand,
     AddSynthCommand,
     AddOptionsCommand,
