@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "city/crs.h"
+#include "cli/query_input.h"
 #include "cli/track_stream.h"
 #include "input/picture_input.h"
 #include "input/world.h"
@@ -199,6 +200,7 @@ void ReadDatasetTrack(const fs::path& file,
     dataset.model.assign(arguments.model.begin(), arguments.model.end());
   }
   if (!arguments.dtm.empty()) dataset.dtm = arguments.dtm;
+  if (!arguments.crs.empty()) SetCrs(arguments.crs, dataset);
   TakeWorld(RequestFor(dataset, 0.0), threads, world);
   PictureInputOptions picture_options;
   PictureReader pictures;
@@ -233,7 +235,9 @@ void ReadPartsTrack(const TrackArguments& arguments,
   WorldRequest request;
   request.model.assign(arguments.model.begin(), arguments.model.end());
   if (!arguments.dtm.empty()) request.dtm = arguments.dtm;
-  request.crs = arguments.crs;
+  Dataset named;
+  SetCrs(arguments.crs, named);
+  request.crs = named.crs;
   request.needs_terrain = true;
   TakeWorld(request, threads, world);
   std::optional<PosePrior> first;

@@ -13,7 +13,8 @@ void GnssMonitorOptions::Visit(OptionVisitor& v) {
   v.Field("noise_m", noise_m);
   v.Field("drift_m", drift_m);
   v.Field("drift_time_s", drift_time_s);
-  v.Field("window", window);
+  v.Field("window_s", window_s);
+  v.Field("step_s", step_s);
   v.Field("threshold", threshold);
 }
 
@@ -24,7 +25,11 @@ void GnssMonitorOptions::Validate() const {
   require(noise_m > 0.0, "noise_m", noise_m, "more than 0");
   require(drift_m >= 0.0, "drift_m", drift_m, "at least 0");
   require(drift_time_s > 0.0, "drift_time_s", drift_time_s, "more than 0");
-  require(window >= 2 && window <= 10000, "window", window, "2 to 10000");
+  require(step_s > 0.0, "step_s", step_s, "more than 0");
+  require(window_s >= step_s && window_s <= 1000.0 * step_s,
+          "window_s",
+          window_s,
+          "one to a thousand steps (gnss.step_s)");
   require(threshold > 0.0, "threshold", threshold, "more than 0");
 }
 
@@ -50,10 +55,13 @@ GnssMonitor::Verdict GnssMonitor::Add(double time_s,
   drift_ += gain * surprise;
   drift_variance_ *= 1.0 - gain;
   // A jump at this fix, or a drag from here on.
-  hypotheses_.push_back({time_s, false, 0.0, Eigen::Vector2d::Zero(), 0.0});
-  hypotheses_.push_back({time_s, true, 0.0, Eigen::Vector2d::Zero(), 0.0});
-  if (hypotheses_.size() > 2 * static_cast<std::size_t>(options_.window)) {
-    hypotheses_.erase(hypotheses_.begin(), hypotheses_.begin() + 2);
+  if (!last_begin_s_ || time_s - *last_begin_s_ >= options_.step_s - 1e-6) {
+    last_begin_s_ = time_s;
+    hypotheses_.push_back({time_s, false, 0.0, Eigen::Vector2d::Zero(), 0.0});
+    hypotheses_.push_back({time_s, true, 0.0, Eigen::Vector2d::Zero(), 0.0});
+    while (time_s - hypotheses_.front().begin_s > options_.window_s) {
+      hypotheses_.erase(hypotheses_.begin());
+    }
   }
   const Hypothesis* best = nullptr;
   double highest = 0.0;

@@ -12,13 +12,14 @@ namespace ridgeline {
 
 struct GnssMonitorOptions {
   // An honest receiver: white noise of a fix, and an error that drifts, each per axis [m].
-  double noise_m = 1.5;
-  double drift_m = 3.0;
+  double noise_m = 1.0;
+  double drift_m = 2.0;
   double drift_time_s = 60.0;
-  // Fixes that are looked back at for the begin of a lie.
-  int window = 60;
+  // How far back, and in what steps, the begin of a lie is sought [s].
+  double window_s = 60.0;
+  double step_s = 1.0;
   // Log likelihood ratio at which a receiver is called a liar.
-  double threshold = 14.0;
+  double threshold = 13.0;
 
   void Visit(OptionVisitor& v);
   // Throws InputError naming the field, e.g. "gnss.noise_m".
@@ -30,7 +31,7 @@ struct GnssMonitorOptions {
 // per axis whitens. A lie adds a jump or a drag of constant speed from some time on, whose trace in
 // the whitened differences is known but for its size: the generalized likelihood ratio over all
 // begins in a window (Willsky and Jones, IEEE Trans. Automatic Control 21, 1976) is tested at every
-// fix. Some hundred multiplications for each fix.
+// fix. Some thousand multiplications for each fix.
 class GnssMonitor {
  public:
   explicit GnssMonitor(const GnssMonitorOptions& options);
@@ -68,6 +69,7 @@ class GnssMonitor {
   std::optional<double> last_s_;
   Eigen::Vector2d drift_ = Eigen::Vector2d::Zero();
   double drift_variance_ = 0.0;
+  std::optional<double> last_begin_s_;
   std::vector<Hypothesis> hypotheses_;
   Verdict verdict_;
 };

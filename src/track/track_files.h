@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "track/track_smoother.h"
 #include "track/tracker.h"
