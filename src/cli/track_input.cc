@@ -201,7 +201,10 @@ void ReadDatasetTrack(const fs::path& file,
   }
   if (!arguments.dtm.empty()) dataset.dtm = arguments.dtm;
   if (!arguments.crs.empty()) SetCrs(arguments.crs, dataset);
-  TakeWorld(RequestFor(dataset, 0.0), threads, world);
+  WorldRequest request = RequestFor(dataset, 0.0);
+  request.needs_terrain = request.needs_terrain ||
+                          (!arguments.sensors.empty() && sensors.height_source != "gnss");
+  TakeWorld(std::move(request), threads, world);
   PictureInputOptions picture_options;
   PictureReader pictures;
   std::optional<Crs> crs;

@@ -16,7 +16,6 @@ namespace ridgeline {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 constexpr std::chrono::milliseconds kPoll{100};
 
@@ -142,7 +141,7 @@ class Lines final : public TrackFrames {
 
   std::string Take(const std::string& line, TrackFrameFacts& facts) const {
     try {
-      const Json json = Json::parse(line);
+      const nlohmann::json json = nlohmann::json::parse(line);
       const auto number = [&](const char* name, std::optional<double>& value) {
         if (json.contains(name)) value = json.at(name).get<double>();
       };
@@ -154,12 +153,12 @@ class Lines final : public TrackFrames {
       number("speed_m_s", facts.speed_m_s);
       if (json.contains("motion")) facts.motion = MotionOf(json.at("motion"));
       return json.at("image").get<std::string>();
-    } catch (const Json::exception& e) {
+    } catch (const nlohmann::json::exception& e) {
       Fail("", std::string("a path, or a JSON object with \"image\" (") + e.what() + ")");
     }
   }
 
-  Motion MotionOf(const Json& json) const {
+  Motion MotionOf(const nlohmann::json& json) const {
     const auto step = json.at("step_m").get<std::vector<double>>();
     const auto q = json.at("before_from_now_wxyz").get<std::vector<double>>();
     if (step.size() != 3) Fail(": motion.step_m", "three numbers");

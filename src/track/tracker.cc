@@ -25,14 +25,21 @@ constexpr double kGapS = 10.0;
 // Below this share the edges are not where they should be.
 constexpr double kExplained = 0.35;
 constexpr int kUnexplainedLooks = 3;
+// No pose is given where none has this share of the belief.
+constexpr double kLeastMass = 0.1;
+// A position less certain than this is sought in a wide look [m].
+constexpr double kWideSigmaM = 1.5;
+// What is learned of the scale of odometry presumes that it errs by less.
+constexpr double kOneScale = 0.1;
 // What the model and the choice of a way to count errors leave at least [m, deg].
-constexpr double kFloorM = 0.1;
-constexpr double kFloorDeg = 0.1;
+constexpr double kModelFloorM = 0.1;
+constexpr double kModelFloorDeg = 0.1;
 // Places whose poses share a view.
 constexpr double kCellM = 0.3;
 constexpr double kGlanceCellM = 0.6;
 // Particles are followed or not: odds at the start, the least share of odds that a frame keeps, and
 // bounds of what one look can say.
+constexpr double kWidest = 5.0;  // of the start's range
 constexpr double kForget = 0.97;
 constexpr double kMostOdds = 7.5;
 
@@ -143,6 +150,33 @@ void Tracker::Start(const PosePrior& prior) {
   log_odds_ = 0.0;
 }
 
+// The region that is searched follows the particles.
+void Tracker::MoveRegion() {
+  if (!filter_.has_particles()) return;
+  const PoseBelief belief = filter_.Belief();
+  const double reach_m =
+      std::max(belief.radius_m, kOneInThousandPlane * SigmaOf(belief.main.covariance));
+  PoseRegion region =
+      RegionAround(belief.main.mean.head<2>(),
+                   std::clamp(reach_m, options_.start_m, kWidest * options_.start_m));
+  if (state_ == TrackState::kTracking) {
+    region.pitch_deg = belief.main.mean(4);
+    region.roll_deg = belief.main.mean(5);
+  }
+  filter_.SetRegion(region);
+}
+
+// The particles were led astray: the place is sought as at the start, around where they are.
+void Tracker::StartAgain(const std::string& reason) {
+  SeekAgain(reason);
+  MoveRegion();
+  PoseRegion region = filter_.region();
+  if (!filter_.has_particles()) {  // once more in vain
+    region.half_m = std::min(1.5 * region.half_m, kWidest * options_.start_m);
+  }
+  filter_.Start(region);
+}
+
 void Tracker::SeekAgain(const std::string& reason) {
   state_ = TrackState::kRelocalizing;
   state_reason_ = reason;
@@ -186,6 +220,7 @@ TrackLook Tracker::Choose(const TrackInput& input) const {
   if (input.picture.empty() || !input.camera) return TrackLook::kNone;
   if (state_ != TrackState::kTracking || !filter_.has_particles()) return TrackLook::kWide;
   const double sigma_m = SigmaOf(filter_.Belief().main.covariance);
+  if (sigma_m > kWideSigmaM) return TrackLook::kWide;
   if (sigma_m > options_.key_sigma_m || since_key_m_ >= options_.key_distance_m) {
     return TrackLook::kClose;
   }
@@ -310,7 +345,8 @@ void Tracker::Judge(const FrameEvidence& evidence, TrackLook look, double mass, 
 
 void Tracker::LearnScale(const PoseBell& now) {
   const double sigma_m = SigmaOf(now.covariance);
-  const bool is_sure = now.mass > 0.95 && sigma_m < 0.6 && log_odds_ > 0.0;
+  const bool is_sure =
+      has_one_scale_ && now.mass > 0.95 && sigma_m < 0.6 && log_odds_ > 0.0;
   if (!is_sure) {
     last_key_.reset();
     return;
@@ -367,36 +403,34 @@ void Tracker::Decide(const PoseBelief& belief, TrackFrame& frame) {
   frame.explained = explained_;
   frame.confidence = belief.main.mass * Probability(log_odds_);
   frame.covariance = belief.main.covariance;
-  frame.covariance.diagonal().head<3>().array() += kFloorM * kFloorM;
-  frame.covariance.diagonal().tail<3>().array() += kFloorDeg * kFloorDeg;
+  frame.covariance.diagonal().head<3>().array() += kModelFloorM * kModelFloorM;
+  frame.covariance.diagonal().tail<3>().array() += kModelFloorDeg * kModelFloorDeg;
   const double sigma_m = SigmaOf(frame.covariance);
   if (state_ == TrackState::kTracking) {
     if (unexplained_ >= kUnexplainedLooks) {
-      SeekAgain("the pictures do not show what the model shows there");
+      StartAgain("the pictures do not show what the model shows there");
     } else if (frame.confidence < options_.seek_below) {
       SeekAgain("other poses explain the pictures about as well");
     }
+  } else if (unexplained_ >= kUnexplainedLooks) {
+    StartAgain("no pose that was searched explains the pictures");
   } else if (frame.confidence >= options_.tracking_from) {
     state_ = TrackState::kTracking;
     state_reason_.clear();
   }
   const double radius_m = std::max(belief.radius_m, kOneInThousandPlane * sigma_m);
-  if (radius_m > options_.lost_radius_m && state_ == TrackState::kTracking) {
+  const bool is_vague = kOneInThousandPlane * sigma_m > options_.lost_radius_m;
+  if (is_vague && state_ == TrackState::kTracking) {
     SeekAgain(Text("nothing was seen for so long that the position is known to %.0f m only",
                    radius_m));
   }
+  const bool is_lost = is_vague || belief.main.mass < kLeastMass;
+  frame.confidence =
+      std::min(frame.confidence, belief.main.mass * Probability(log_odds_));
   frame.state = state_;
   Pose pose = PoseOf(belief.main.mean);
-  // The region that is searched next follows the particles.
-  const double half_m = std::clamp(radius_m, options_.start_m, 5.0 * options_.start_m);
-  PoseRegion region = RegionAround(belief.main.mean.head<2>(), half_m);
-  if (state_ == TrackState::kTracking) {
-    region.pitch_deg = belief.main.mean(4);
-    region.roll_deg = belief.main.mean(5);
-  }
-  filter_.SetRegion(region);
   pose.center_in_world += origin;
-  if (radius_m > options_.lost_radius_m) {
+  if (is_lost) {
     frame.state = TrackState::kLost;
     frame.confidence = 0.0;
   } else {
@@ -419,13 +453,15 @@ TrackFrame Tracker::Step(const TrackInput& input) {
   frame.fix = input.fix;
   if (frames_ > 1) {
     const Motion motion = MotionOf(input, frame.reason);
-    if (input.is_cut) SeekAgain(frame.reason);
+    if (input.is_cut) StartAgain(frame.reason);
     const double way_m = motion.step_in_before.norm();
     since_look_m_ += way_m;
     since_key_m_ += way_m;
     since_last_key_m_ += way_m;
     filter_.Predict(motion);
+    has_one_scale_ = has_one_scale_ && motion.scale_sigma < kOneScale;
     frame.motion = motion;
+    MoveRegion();
   }
   if (input.time_s) last_s_ = input.time_s;
   if (input.picture.empty()) frame.reason = "the picture is missing or cannot be read";

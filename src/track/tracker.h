@@ -86,7 +86,9 @@ class Tracker {
   void LookAt(const TrackInput& input, TrackLook look, TrackFrame& frame);
   PoseFilter::LogOther OtherOf(const TrackInput& input) const;
   PosePrior SearchPrior(const TrackInput& input) const;
+  void MoveRegion();
   void SeekAgain(const std::string& reason);
+  void StartAgain(const std::string& reason);
   void Judge(const FrameEvidence& evidence, TrackLook look, double mass, const Pose& pose);
   void Decide(const PoseBelief& belief, TrackFrame& frame);
   void Watch(const TrackInput& input, TrackFrame& frame);
@@ -115,6 +117,7 @@ class Tracker {
   OdometryAxes axes_ = OdometryAxes::kCamera;
   double scale_ = 1.0;
   double scale_sigma_ = 0.0;
+  bool has_one_scale_ = true;  // all motions come from one odometry
   std::optional<PoseBell> last_key_;  // confident, for the scale
   double since_last_key_m_ = 0.0;
   std::vector<std::string> notes_;
