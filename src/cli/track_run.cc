@@ -157,10 +157,10 @@ class Session {
                 std::to_string(picture.rows) + " px, the camera's " +
                 std::to_string(facts.camera->width) + " x " +
                 std::to_string(facts.camera->height);
-      input.picture = {};
+      input.picture = cv::Mat();
     } else if (!picture.empty() && !facts.camera) {
       trouble = "the camera is not known";
-      input.picture = {};
+      input.picture = cv::Mat();
     }
     if (!world_.has_odometry && !input.picture.empty()) SeeMotion(facts, input);
     const TrackFrame frame = tracker_.Step(input);
