@@ -2,7 +2,7 @@
 # Every find_package of the project. RidgelineConfig.cmake.in repeats the ones that consumers need.
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED)
-find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc imgcodecs calib3d videoio ximgproc)
+find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc imgcodecs calib3d video videoio ximgproc)
 find_package(embree 3 REQUIRED)
 find_package(GDAL 3.6 REQUIRED)
 find_package(PROJ REQUIRED)

@@ -18,6 +18,7 @@
 #include "cli/skyline.h"
 #include "cli/study.h"
 #include "cli/synth.h"
+#include "cli/track.h"
 #include "cli/verify.h"
 #include "cli/version.h"
 
@@ -40,6 +41,7 @@ constexpr AddFunction kCommands[] = {
     AddCalibrateCommand,
     AddRenderCommand,
     AddSkylineCommand,
+    AddTrackCommand,
     AddAugmentCommand,
     AddReplayCommand,
     AddSynthCommand,

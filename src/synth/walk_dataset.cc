@@ -97,6 +97,7 @@ TownDatasetSummary WriteWalkDataset(const WalkOptions& options,
   }
   WriteDemoTower(folder);
   WriteFileAtomically(folder / "sensors.csv", WalkSensorsCsv(town, poses, options));
+  WriteFileAtomically(folder / "odometry.csv", WalkOdometryCsv(poses, options));
   const Json dataset = {{"name", "demo-walk"},
                         {"crs", "EPSG:" + std::to_string(town.epsg)},
                         {"model", {"city.gml"}},

@@ -32,6 +32,7 @@ constexpr NumberColumn kNumbers[] = {
     {"pitch_deg", &SensorReading::pitch_deg, -90.0, 90.0},
     {"roll_deg", &SensorReading::roll_deg, -180.0, 180.0},
     {"pressure_hpa", &SensorReading::pressure_hpa, 100.0, 1200.0},
+    {"speed_m_s", &SensorReading::speed_m_s, -100.0, 500.0},
 };
 constexpr const char* kAxes[] = {"acc_x", "acc_y", "acc_z"};
 constexpr const char* kRates[] = {"gyro_x", "gyro_y", "gyro_z"};

@@ -28,6 +28,7 @@ struct SensorReading {
   std::optional<Eigen::Vector3d> acceleration;  // device axes; at rest upward, any unit
   std::optional<double> pressure_hpa;
   std::optional<Eigen::Vector3d> rotation_rad_s;  // device axes, right-handed
+  std::optional<double> speed_m_s;  // of the wheels; backward: negative
 };
 
 struct SensorOptions {
@@ -64,7 +65,8 @@ struct SensorOptions {
 };
 
 // Reads a CSV with a header; '#' starts a comment line. Columns: id, time_s, lat_deg, lon_deg,
-// alt_m, compass_heading_deg, pitch_deg, roll_deg, acc_x, acc_y, acc_z, gyro_x, gyro_y, gyro_z, pressure_hpa; all but id
+// alt_m, compass_heading_deg, pitch_deg, roll_deg, acc_x, acc_y, acc_z, gyro_x, gyro_y, gyro_z,
+// pressure_hpa, speed_m_s; all but id
 // are optional, and empty fields are missing values. Throws InputError naming line and column for
 // unknown or repeated columns, rows of a wrong length, values that are not numbers or out of range,
 // and two rows with one id.
