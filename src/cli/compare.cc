@@ -156,7 +156,8 @@ void WritePage(const CompareArguments& arguments,
   CompleteFromPictures(*dataset, false, PictureInputOptions{});
   World world = ReadWorld(RequestFor(*dataset, 50.0));
   for (const std::string& warning : world.warnings) context.Warn(warning);
-  const Localizer localizer(world.model, world.dtm, LocalizerOptions{});
+  const LocalizerOptions options;
+  const Localizer localizer(world.model, world.dtm, options);
   title.crs = CrsName(world.model.crs);
   WriteHtmlReport(CompareReport(title, comparisons, &*dataset, &localizer), file);
 }
