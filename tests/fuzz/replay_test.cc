@@ -29,8 +29,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 std::vector<fs::path> CorpusOf(const FuzzTarget& target) {
   std::vector<fs::path> files;
-  const fs::path folder =
-      fs::path(kSourceFolder) / "tests" / "fuzz" / "corpus" / target.name;
+  const fs::path folder = fs::path(kSourceFolder) / "tests" / "fuzz" / "corpus" / target.name;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     files.push_back(entry.path());
   }
@@ -91,8 +90,8 @@ std::vector<std::string_view> Names() {
   return names;
 }
 
-INSTANTIATE_TEST_SUITE_P(Fuzz, Replay, ::testing::ValuesIn(Names()), [](const auto& info) {
-  return std::string(info.param);
+INSTANTIATE_TEST_SUITE_P(Fuzz, Replay, ::testing::ValuesIn(Names()), [](const auto& named) {
+  return std::string(named.param);
 });
 
 }  // namespace
