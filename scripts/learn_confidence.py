@@ -4,8 +4,8 @@
 
     scripts/learn_confidence.py RUNS... [--judge RUNS...]
 
-RUNS are evidence.csv files or folders that hold some, at any depth. The models are logistic
-regressions with a small ridge (Newton's method); --judge names runs that nothing is learned from:
+RUNS are evidence.csv files or folders that hold some, at any depth. The models are a logistic
+function of the evidence times a power of the posterior mass; --judge names runs that nothing is learned from:
 how the learned confidence does on them is printed, with exact binomial bounds. Needs Debian's
 python3-numpy and python3-scipy.
 """
@@ -16,9 +16,12 @@ import json
 import pathlib
 
 import numpy as np
+from scipy.optimize import minimize
 from scipy.stats import beta
 
-RIDGE = 0.3
+RIDGE = 0.02
+# Of runs whose background is not known, and the bounds of the features (src/localize/confidence.cc).
+UNKNOWN_NAT = 10.0
 
 
 def elsewhere(folder):
@@ -42,31 +45,35 @@ def read(paths):
 
 
 def features(rows):
-    """As OutcomeModel::Probability (src/localize/confidence.cc)."""
-    mass = np.clip([float(r["posterior_mass"]) for r in rows], 1e-3, 1 - 1e-3)
+    """As OutcomeModel::Probability (src/localize/confidence.cc): the columns of the logistic part,
+    and the posterior mass."""
+    number = lambda text: float(text) if text else UNKNOWN_NAT
     explained = np.clip([float(r["explained"]) for r in rows], -0.5, 1.5)
-    observed = np.clip([float(r["observed_nat"]) for r in rows], -5.0, 15.0)
-    return np.stack([np.ones(len(rows)), np.log(mass / (1 - mass)), explained, observed], axis=1)
+    background = np.clip([number(r["above_background_nat"]) for r in rows], -10.0, 25.0)
+    mass = np.clip([float(r["posterior_mass"]) for r in rows], 1e-6, 1.0)
+    return np.stack([np.ones(len(rows)), explained, background], axis=1), mass
 
 
 def outcomes(rows):
+    """Within 2 m and 2 degrees; within 5 m and 5 degrees."""
     t = np.array([float(r["candidate_t_err_m"]) for r in rows])
     a = np.array([float(r["candidate_r_err_deg"]) for r in rows])
-    return (t <= 2) & (a <= 2), (t > 5) | (a > 5)
+    return (t <= 2) & (a <= 2), (t <= 5) & (a <= 5)
 
 
-def fit(x, y):
-    penalty = np.eye(x.shape[1]) * RIDGE
-    penalty[0, 0] = 0
-    b = np.zeros(x.shape[1])
-    for _ in range(100):
-        p = 1 / (1 + np.exp(-x @ b))
-        step = np.linalg.solve((x.T * (p * (1 - p))) @ x + penalty + 1e-9 * np.eye(len(b)),
-                               x.T @ (y - p) - penalty @ b)
-        b = b + step
-        if np.abs(step).max() < 1e-9:
-            break
-    return b
+def probability(b, x, mass):
+    """b: offset, explained, above_background, log of mass_power."""
+    return mass ** np.exp(b[3]) / (1 + np.exp(-np.clip(x @ b[:3], -30, 30)))
+
+
+def fit(x, mass, y):
+    """Highest likelihood with a small ridge; the power is drawn to 1."""
+    def loss(b):
+        p = np.clip(probability(b, x, mass), 1e-6, 1 - 1e-6)
+        likelihood = (y * np.log(p) + (1 - y) * np.log(1 - p)).sum()
+        return -likelihood + RIDGE * (b[1:3] ** 2).sum() + 0.5 * b[3] ** 2
+    starts = [np.array([offset, 1.0, 0.1, 0.0]) for offset in (-4.0, -2.0, 0.0)]
+    return min((minimize(loss, start, method="BFGS") for start in starts), key=lambda r: r.fun).x
 
 
 def upper_bound(wrong, count):
@@ -75,8 +82,9 @@ def upper_bound(wrong, count):
 
 
 def judge(rows, b_right):
-    right, gross = outcomes(rows)
-    p = 1 / (1 + np.exp(-features(rows) @ b_right))
+    right, near = outcomes(rows)
+    gross = ~near
+    p = probability(b_right, *features(rows))
     print(f"{'run':32} {'n':>5} {'right':>6} {'>=0.9':>6} {'wrong':>6} {'gross':>6} {'kept':>6} {'<0.15':>6}")
     for name in sorted({r["run"] for r in rows}) + ["all"]:
         here = np.array([name in ("all", r["run"]) for r in rows])
@@ -97,10 +105,12 @@ def main():
     parser.add_argument("--judge", nargs="+", default=[])
     arguments = parser.parse_args()
     rows = read(arguments.runs)
-    x = features(rows)
-    models = [("right", fit(x, outcomes(rows)[0])), ("gross", fit(x, outcomes(rows)[1]))]
+    right, near = outcomes(rows)
+    models = [("right", fit(*features(rows), right)), ("near", fit(*features(rows), near))]
     for name, b in models:
-        print(name, dict(zip(["offset", "mass", "explained", "observed"], np.round(b, 3).tolist())))
+        values = [*b[:3], np.exp(b[3])]
+        print(name, dict(zip(["offset", "explained", "above_background", "mass_power"],
+                             np.round(values, 3).tolist())))
     print(f"\nlearned from {len(rows)} runs:")
     judge(rows, models[0][1])
     if arguments.judge:

@@ -7,6 +7,9 @@ set -eu
 cd "$(dirname -- "$0")/.."
 ./scripts/install_packages.sh
 ./scripts/build.sh
+if command -v mkdocs >/dev/null; then
+  ./scripts/site.sh
+fi
 ctest --preset release --no-tests=error --parallel "$(nproc)" "$@"
 # All tests were asked for: those of the readers once more, with sanitizers.
 if [ $# -eq 0 ]; then

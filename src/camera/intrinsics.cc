@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <cstdio>
 #include <opencv2/imgproc.hpp>
+#include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/limits.h"
@@ -211,19 +213,56 @@ Eigen::Vector2d CameraIntrinsics::Undistort(const Eigen::Vector2d& px) const {
   return u;
 }
 
-cv::Mat UndistortImage(const cv::Mat& image, const CameraIntrinsics& camera) {
-  if (!camera.HasDistortion()) return image;
+namespace {
+
+// Where the pixels of an undistorted picture lie in the distorted one, as cv::remap reads it:
+// exact at every eighth pixel of every eighth row, linear between them. Distortion bends by some
+// ten thousandths of a pixel per square pixel: between nodes it is off by less than 0.01 px.
+cv::Mat DistortedPlaces(const cv::Size& size, const CameraIntrinsics& camera) {
+  constexpr int kSpacing = 8;
   const PinholeCamera pinhole = camera.Pinhole();
-  cv::Mat map(image.size(), CV_32FC2);
-  for (int y = 0; y < map.rows; ++y) {
-    for (int x = 0; x < map.cols; ++x) {
-      const Eigen::Vector2d px = camera.Distort(pinhole.RayFromImage({x + 0.5, y + 0.5}).head<2>());
-      map.at<cv::Vec2f>(y, x) = {static_cast<float>(px.x() - 0.5),
-                                 static_cast<float>(px.y() - 0.5)};
+  const int nodes = (size.width - 1) / kSpacing + 2;
+  const auto nodes_of_row = [&](int y) {
+    std::vector<cv::Vec2f> row;
+    for (int i = 0; i < nodes; ++i) {
+      const Eigen::Vector2d ray =
+          pinhole.RayFromImage({i * kSpacing + 0.5, y + 0.5}).head<2>();
+      const Eigen::Vector2d px = camera.Distort(ray);
+      row.emplace_back(static_cast<float>(px.x() - 0.5), static_cast<float>(px.y() - 0.5));
+    }
+    return row;
+  };
+  cv::Mat places(size, CV_32FC2);
+  std::vector<cv::Vec2f> below = nodes_of_row(0);
+  for (int top = 0; top < size.height; top += kSpacing) {
+    const std::vector<cv::Vec2f> above = std::move(below);
+    below = nodes_of_row(top + kSpacing);
+    for (int y = top; y < std::min(top + kSpacing, size.height); ++y) {
+      const float down = static_cast<float>(y - top) / kSpacing;
+      std::vector<cv::Vec2f> row(above.size());
+      for (std::size_t i = 0; i < row.size(); ++i) row[i] = above[i] + down * (below[i] - above[i]);
+      cv::Vec2f* const out = places.ptr<cv::Vec2f>(y);
+      for (int x = 0; x < size.width; ++x) {
+        const auto i = static_cast<std::size_t>(x / kSpacing);
+        const float right = static_cast<float>(x % kSpacing) / kSpacing;
+        out[x] = row[i] + right * (row[i + 1] - row[i]);
+      }
     }
   }
+  return places;
+}
+
+}  // namespace
+
+cv::Mat UndistortImage(const cv::Mat& image, const CameraIntrinsics& camera) {
+  if (!camera.HasDistortion()) return image;
   cv::Mat undistorted;
-  cv::remap(image, undistorted, map, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  cv::remap(image,
+            undistorted,
+            DistortedPlaces(image.size(), camera),
+            cv::noArray(),
+            cv::INTER_LINEAR,
+            cv::BORDER_REPLICATE);
   return undistorted;
 }
 

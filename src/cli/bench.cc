@@ -14,6 +14,7 @@
 #include "cli/out_folder.h"
 #include "cli/progress.h"
 #include "cli/run_outputs.h"
+#include "cli/sensor_priors.h"
 #include "eval/bench.h"
 #include "eval/bench_files.h"
 #include "eval/bench_queries.h"
@@ -33,6 +34,7 @@ struct BenchArguments {
   std::string world;
   std::string perturb;
   std::string score_only;
+  std::string sensors;
   bool no_report = false;
   int seed = 1;
   int seeds = 1;
@@ -190,6 +192,7 @@ std::string CommandOf(const BenchArguments& arguments) {
   if (!arguments.protocol.empty()) command += " --protocol " + arguments.protocol;
   if (!arguments.world.empty()) command += " --world " + arguments.world;
   if (!arguments.perturb.empty()) command += " --perturb " + arguments.perturb;
+  if (!arguments.sensors.empty()) command += " --sensors " + arguments.sensors;
   return command + " --seed " + std::to_string(arguments.seed) + " --seeds " +
          std::to_string(arguments.seeds);
 }
@@ -202,6 +205,7 @@ void CheckScoreOnly(const BenchArguments& arguments) {
       {!arguments.protocol.empty(), "--protocol"},
       {!arguments.world.empty(), "--world"},
       {!arguments.perturb.empty(), "--perturb"},
+      {!arguments.sensors.empty(), "--sensors"},
       {arguments.seed != defaults.seed, "--seed"},
       {arguments.seeds != defaults.seeds, "--seeds"},
       {!arguments.config.config.empty(), "--config"},
@@ -239,8 +243,22 @@ struct BenchTask {
 
 BenchTask TaskOf(const BenchArguments& arguments,
                  const LocalizerOptions& options,
+                 const SensorOptions& sensors,
                  const Context& context) {
   Dataset dataset = ReadDataset(arguments.dataset);
+  if (!arguments.sensors.empty()) {
+    if (!arguments.protocol.empty() || !arguments.perturb.empty()) {
+      throw InputError("--sensors",
+                       "",
+                       "instruments beside " + std::string(arguments.protocol.empty()
+                                                               ? "--perturb"
+                                                               : "--protocol"),
+                       "one of the two: both say what the priors are");
+    }
+    PriorsFromSensors(arguments.sensors, sensors, context, dataset);
+    BenchQueries queries{dataset};
+    return {queries, dataset};
+  }
   const std::optional<Protocol> protocol = ProtocolOf(arguments);
   const PriorPlace place = protocol ? protocol->place : PriorPlace::kDataset;
   if (place != PriorPlace::kPicture) {
@@ -272,7 +290,8 @@ int RunScoreOnly(const BenchArguments& arguments, const Context& context) {
   return kExitOk;
 }
 
-int RunBenchCommand(const BenchArguments& arguments, const Context& context) {
+int RunBenchCommand(BenchArguments arguments, const Context& context) {
+  const SensorOptions sensors = TakeSensorOptions(arguments.sensors, arguments.config.set);
   LocalizerOptions options;
   ApplyConfig(arguments.config, [&](OptionVisitor& v) { options.Visit(v); });
   options.Validate();
@@ -286,7 +305,7 @@ int RunBenchCommand(const BenchArguments& arguments, const Context& context) {
   const RunOutputs outputs = OutputsOf(arguments);
   CheckRunOutputs(outputs, true);
   if (!arguments.score_only.empty()) return RunScoreOnly(arguments, context);
-  const BenchTask task = TaskOf(arguments, options, context);
+  const BenchTask task = TaskOf(arguments, options, sensors, context);
   const Dataset& dataset = task.queries.dataset();
   const Protocol& protocol = task.queries.protocol();
   // Places are those of truths and priors; a box beside the truth reaches further.
@@ -352,6 +371,11 @@ void AddBenchCommand(CLI::App& app, Context& context) {
                    "Draw priors around the truth: east,north,height,heading[,pitch,roll] "
                    "half-ranges in m and deg; also the ranges of the search")
       ->excludes("--protocol");
+  command
+      ->add_option("--sensors",
+                   arguments->sensors,
+                   "Priors from a phone's instruments (CSV, docs/skyline.md), by query id")
+      ->type_name("FILE");
   command->add_flag("--no-report", arguments->no_report, "No report.html: for many small runs");
   command->add_option("--seed", arguments->seed, "First seed (default 1)");
   command->add_option("--seeds", arguments->seeds, "Number of seeds (default 1)")

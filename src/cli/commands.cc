@@ -3,6 +3,7 @@
 
 #include "cli/augment.h"
 #include "cli/bench.h"
+#include "cli/calibrate.h"
 #include "cli/completion.h"
 #include "cli/convert.h"
 #include "cli/doctor.h"
@@ -11,6 +12,7 @@
 #include "cli/localize.h"
 #include "cli/options.h"
 #include "cli/render.h"
+#include "cli/replay.h"
 #include "cli/skyline.h"
 #include "cli/study.h"
 #include "cli/synth.h"
@@ -29,9 +31,11 @@ constexpr AddFunction kCommands[] = {
     AddIndexCommand,
     AddInfoCommand,
     AddConvertCommand,
+    AddCalibrateCommand,
     AddRenderCommand,
     AddSkylineCommand,
     AddAugmentCommand,
+    AddReplayCommand,
     AddSynthCommand,
     AddOptionsCommand,
     AddDoctorCommand,

@@ -162,8 +162,9 @@ void AddConvertCommand(CLI::App& app, Context& context) {
       context,
       {"convert",
        "Turns poses and cameras of other programs into a dataset, and results into their formats.",
-       "ridgeline convert colmap/sparse --model city.gml --dtm dtm.tif --images colmap/images \\\n"
-       "    --out town/dataset.json\n"
+       "ridgeline convert town/dataset.json --to colmap --out colmap\n"
+       "ridgeline convert colmap --model town/city.gml --dtm town/dtm.tif \\\n"
+       "    --images town/images --out again.json\n"
        "ridgeline convert town/dataset.json results/results.csv --out results.kml"},
       [arguments](Context& c) { return RunConvert(*arguments, c); });
   command

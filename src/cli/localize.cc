@@ -14,6 +14,7 @@
 #include "cli/out_folder.h"
 #include "cli/progress.h"
 #include "cli/query_input.h"
+#include "cli/sensor_priors.h"
 #include "cli/version.h"
 #include "eval/bench.h"
 #include "eval/pose_json.h"
@@ -33,6 +34,7 @@ struct LocalizeArguments {
   QueryArguments query;
   std::string prior;
   std::string lines;
+  std::string sensors;
   std::string out;
   std::string report;
   std::optional<double> declination_deg;
@@ -62,6 +64,9 @@ Dataset ReadTask(const LocalizeArguments& arguments) {
   }
   Dataset dataset = ReadQuery(arguments.query);
   Query& query = dataset.queries.front();
+  if (!arguments.prior.empty() && !arguments.sensors.empty()) {
+    throw InputError("--prior", "", "a prior beside --sensors", "one of the two");
+  }
   if (!arguments.prior.empty()) {
     query.prior = ReadPrior(arguments.prior);
     dataset.file = arguments.prior;  // which is named where the prior leaves something open
@@ -251,7 +256,7 @@ void WriteResults(const LocalizeArguments& arguments,
         RunJson(run.localization, arguments.seed, VersionText(), options_json, query.assumptions));
     const cv::Mat photo = UndistortImage(BgrOf(pictures.Read(query)), *query.camera);
     WriteOverlay(
-        photo, ResultOverlay(localizer, query.camera->Pinhole(), run), {}, out / "overlay.png");
+        photo, ResultOverlay(localizer, CameraOf(query, run.localization), run), {}, out / "overlay.png");
     WriteMap(data.runs, crs.horizontal_epsg, out / "map.geojson");
     if (!data.runs.empty() && data.runs.front().map) {
       WriteEnergyMap(*data.runs.front().map, crs.horizontal_epsg, out / "energy.tif");
@@ -260,10 +265,14 @@ void WriteResults(const LocalizeArguments& arguments,
   if (!arguments.report.empty()) WriteHtmlReport(data, arguments.report);
 }
 
-int RunLocalize(const LocalizeArguments& arguments, const Context& context) {
+int RunLocalize(LocalizeArguments arguments, const Context& context) {
   Stages stages(context);
   stages.Begin("reading the picture");
+  const SensorOptions sensors = TakeSensorOptions(arguments.sensors, arguments.config.set);
   Dataset dataset = ReadTask(arguments);
+  if (!arguments.sensors.empty()) {
+    PriorsFromSensors(arguments.sensors, sensors, context, dataset);
+  }
   LocalizerOptions options;
   ReadOptions(arguments, options);
   const OutFolder out_folder("--out", arguments.out);
@@ -332,10 +341,10 @@ void AddLocalizeCommand(CLI::App& app, Context& context) {
       context,
       {"localize",
        "Finds the pose of one picture.",
-       "ridgeline localize photo.jpg --model city.gpkg --dtm dtm.tif\n"
-       "ridgeline localize photo.jpg --model city.gml --dtm dtm.tif --camera camera.json \\\n"
-       "    --prior prior.json --out result --report result.html\n"
-       "ridgeline localize --dataset town/dataset.json --query street_000 --out result"},
+       "ridgeline localize --dataset town/dataset.json --query street_000 \\\n"
+       "    --out result --report result.html\n"
+       "# a photo of your own with GNSS in its EXIF, or with --camera and --prior files:\n"
+       "# ridgeline localize photo.jpg --model tiles/ --dtm dtm.tif --out result"},
       [arguments](Context& c) { return RunLocalize(*arguments, c); });
   command->add_option("image", arguments->query.image, "Picture");
   AddQueryOptions(*command, arguments->query);
@@ -349,6 +358,11 @@ void AddLocalizeCommand(CLI::App& app, Context& context) {
       "Magnetic declination [deg], east positive; else by the World Magnetic Model");
   command->add_option(
       "--lines", arguments->lines, "Segments of another detector, in place of lines.detector");
+  command
+      ->add_option("--sensors",
+                   arguments->sensors,
+                   "Prior from a phone's instruments (CSV, docs/skyline.md), by the picture's name")
+      ->type_name("FILE");
   command->add_option("--out",
                       arguments->out,
                       "Folder for pose.json, report.json, overlay.png, map.geojson, energy.tif");

@@ -28,8 +28,10 @@ void WriteOverlayOf(const BenchRun& run,
                     PictureReader& pictures,
                     const fs::path& path) {
   const cv::Mat photo = UndistortImage(BgrOf(pictures.Read(query)), *query.camera);
-  WriteOverlay(
-      photo, ResultOverlay(localizer, query.camera->Pinhole(), run), OverlayDrawOptions{}, path);
+  WriteOverlay(photo,
+               ResultOverlay(localizer, CameraOf(query, run.localization), run),
+               OverlayDrawOptions{},
+               path);
 }
 
 }  // namespace

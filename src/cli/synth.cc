@@ -178,7 +178,7 @@ void AddSynthCommand(CLI::App& app, Context& context) {
                                  {"synth",
                                   "Invents a town: CityGML, DTM and pictures with exact poses.",
                                   "ridgeline synth --out town --seed 7 --queries 20\n"
-                                  "ridgeline synth --out big --buildings 100000 --queries 0\n"
+                                  "ridgeline synth --out big --buildings 10000 --queries 0\n"
                                   "ridgeline synth --out walk --walk 60"},
                                  [arguments](Context& c) { return RunSynth(*arguments, c); });
   TownDatasetOptions& options = arguments->options;

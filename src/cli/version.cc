@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/version_text.h"
 
 namespace ridgeline {
 namespace {
@@ -60,9 +61,9 @@ constexpr std::size_t kShort = 5;
 
 int RunVersion(const Context& context, bool verbose) {
   const std::vector<Library> libraries = Libraries();
-  nlohmann::ordered_json json = {{"ridgeline", RIDGELINE_VERSION}};
+  nlohmann::ordered_json json = {{"ridgeline", VersionNumber()}};
   std::string text =
-      std::string("ridgeline ") + RIDGELINE_VERSION + (verbose ? "  Apache-2.0" : "");
+      VersionText() + (verbose ? "  Apache-2.0" : "");
   for (std::size_t i = 0; i < (verbose ? libraries.size() : kShort); ++i) {
     const Library& library = libraries[i];
     text += "\n" + library.name;
@@ -82,8 +83,6 @@ int RunVersion(const Context& context, bool verbose) {
 }
 
 }  // namespace
-
-std::string VersionText() { return std::string("ridgeline ") + RIDGELINE_VERSION; }
 
 void AddVersionCommand(CLI::App& app, Context& context) {
   auto verbose = std::make_shared<bool>(false);

@@ -38,6 +38,7 @@ LocalizationInput InputOf(const Query& query,
   }
   input.camera = *query.camera;
   if (query.prior) input.prior = *query.prior;
+  input.focal_lengths = query.focal_lengths;
   if (options.lines.detector == "file") {
     if (!query.lines) {
       throw InputError(query.image.string(),
@@ -48,6 +49,12 @@ LocalizationInput InputOf(const Query& query,
     input.lines = ReadSegments(*query.lines, *query.camera);
   }
   return input;
+}
+
+PinholeCamera CameraOf(const Query& query, const Localization& localization) {
+  PinholeCamera camera = query.camera->Pinhole();
+  if (localization.focal_px) camera.fx = camera.fy = *localization.focal_px;
+  return camera;
 }
 
 RunRecord RecordOf(const Query& query, int seed, const Localization& localization, double seconds) {
@@ -63,6 +70,7 @@ RunRecord RecordOf(const Query& query, int seed, const Localization& localizatio
   record.posterior_mass = localization.posterior_mass;
   record.explained = localization.goodness.explained();
   record.observed_nat = localization.goodness.observed;
+  record.above_background_nat = localization.above_background;
   if (!localization.modes.empty() && query.truth) {
     record.candidate_error = ErrorOf(localization.modes.front().pose, *query.truth);
   }

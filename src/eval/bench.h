@@ -53,6 +53,10 @@ LocalizationInput InputOf(const Query& query,
                           const LocalizerOptions& options,
                           PictureReader& pictures);
 
+// The camera of a query without its distortion, with the focal length that was found where it was
+// not known for sure.
+PinholeCamera CameraOf(const Query& query, const Localization& localization);
+
 // The record of one localization.
 RunRecord RecordOf(const Query& query, int seed, const Localization& localization, double seconds);
 

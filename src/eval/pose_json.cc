@@ -79,12 +79,17 @@ Json JsonOf(const Eigen::Matrix<double, 6, 6>& covariance) {
   return rows;
 }
 
-Json JsonOf(const Goodness& goodness, double posterior_mass, const CityModel& model) {
-  Json json = {{"posterior_mass", Fine(posterior_mass)},
+Json JsonOf(const Localization& localization, const CityModel& model) {
+  const Goodness& goodness = localization.goodness;
+  Json json = {{"posterior_mass", Fine(localization.posterior_mass)},
                {"explained", Fine(goodness.explained())},
                {"observed_nat", Fine(goodness.observed)},
                {"expected_nat", Fine(goodness.expected)},
                {"chance_nat", Fine(goodness.chance)}};
+  json["above_background_nat"] = nullptr;
+  if (localization.above_background) {
+    json["above_background_nat"] = Fine(*localization.above_background);
+  }
   json["buildings"] = Json::array();
   for (const BuildingFit& fit : goodness.buildings) {
     json["buildings"].push_back({{"id", model.buildings[fit.building].id},
@@ -114,6 +119,7 @@ std::string PoseJson(const std::string& picture,
   if (!localization.reason.empty()) json["reason"] = localization.reason;
   json["crs"] = CrsName(model.crs);
   if (localization.pose) json["pose"] = JsonOf(*localization.pose, model);
+  if (localization.focal_px) json["focal_length_px"] = Fine(*localization.focal_px);
   json["energy"] = Fine(localization.energy);
   json["confidence"] = Fine(localization.confidence);
   if (!localization.modes.empty()) json["region_95"] = EllipseJson(localization.spread);
@@ -125,7 +131,7 @@ std::string PoseJson(const std::string& picture,
   }
   json["doubts"] = localization.doubts;
   if (localization.goodness.is_known()) {
-    json["goodness"] = JsonOf(localization.goodness, localization.posterior_mass, model);
+    json["goodness"] = JsonOf(localization, model);
   }
   json["modes"] = Json::array();
   for (const PoseMode& mode : localization.modes) {

@@ -21,11 +21,13 @@ constexpr double kAcceptedRisk = 1e-3;
 // A building that has this to say and says the opposite is named.
 constexpr double kTellingNat = 4.0;
 constexpr double kMisfit = 0.25;
-constexpr double kRoofGainNat = 4.0;
+constexpr double kRoofGainNat = 3.0;
 // An answer on the border of the box is as likely the nearest place to a truth beyond it.
 constexpr double kOnBorder = 0.5;
 // Below this the edges are not where they should be.
 constexpr double kExplained = 0.5;
+// Below this the best of the box is a place like others [nat].
+constexpr double kStandsOutNat = 3.0;
 
 std::string Text(const char* format, double value) {
   char text[200];
@@ -39,10 +41,6 @@ std::optional<ProtectionLevel> ProtectionOf(const PoseSpread& spread, double gro
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(spread.position_covariance);
   return ProtectionLevel{kOneInThousandPlane * std::sqrt(solver.eigenvalues()(1)),
                          kOneInThousandLine * spread.heading_sigma_deg};
-}
-
-std::string NameOf(const Building& building) {
-  return building.parent_id.empty() ? building.id : building.parent_id + " (" + building.id + ")";
 }
 
 std::vector<std::string> DoubtsOf(const Goodness& goodness, const CityModel& model) {
@@ -71,8 +69,11 @@ void Withhold(LocalizationStatus status, std::string reason, Localization& resul
 
 void Decide(const ConfidenceOptions& options, bool on_limit, Localization& result) {
   result.pose = result.modes.front().pose;
+  result.reason.clear();
   if (result.confidence < options.abstain_below) {
-    const bool is_explained = !result.goodness.is_known() || result.goodness.explained() >= kExplained;
+    const bool is_explained =
+        (!result.goodness.is_known() || result.goodness.explained() >= kExplained) &&
+        (!result.above_background || *result.above_background >= kStandsOutNat);
     Withhold(is_explained ? LocalizationStatus::kAmbiguous : LocalizationStatus::kNotExplained,
              is_explained ? "other poses explain the picture about as well (confidence " +
                                 Text("%.2f)", result.confidence)
@@ -94,6 +95,10 @@ void Decide(const ConfidenceOptions& options, bool on_limit, Localization& resul
 
 }  // namespace
 
+std::string NameOf(const Building& building) {
+  return building.parent_id.empty() ? building.id : building.parent_id + " (" + building.id + ")";
+}
+
 void Believe(const SearchedPoses& found,
              const PoseScorer& scorer,
              const ConfidenceOptions& options,
@@ -113,21 +118,33 @@ void Believe(const SearchedPoses& found,
   }
   result.energy = result.modes.front().energy;
   result.goodness = GoodnessOf(scorer, best.offset);
-  result.confidence = result.goodness.is_known()
-                          ? options.right.Probability(posterior.mass, result.goodness)
-                          : posterior.mass;
+  result.above_background = found.above_background;
+  const auto probability = [&](const OutcomeModel& outcome) {
+    return outcome.Probability(posterior.mass, result.goodness, result.above_background);
+  };
+  result.confidence = result.goodness.is_known() ? probability(options.right) : posterior.mass;
   if (IsOnBorder(best.offset, space)) result.confidence *= kOnBorder;
   result.protection.reset();
   if (result.goodness.is_known() && !IsOnBorder(best.offset, space)) {
-    result.protection = ProtectionOf(result.spread,
-                                     options.gross.Probability(posterior.mass, result.goodness));
+    result.protection = ProtectionOf(result.spread, 1.0 - probability(options.near));
   }
   const std::vector<std::string> limits = LimitsReached(best.offset, space);
   result.doubts = DoubtsOf(result.goodness, model);
+  if (result.above_background && *result.above_background < kStandsOutNat) {
+    result.doubts.push_back("places where it cannot be explain the picture about as well");
+  }
   for (const std::string& limit : limits) {
     result.doubts.push_back("the answer lies on the limit of " + limit);
   }
   Decide(options, !limits.empty(), result);
+}
+
+void Reconsider(double factor,
+                bool on_limit,
+                const ConfidenceOptions& options,
+                Localization& result) {
+  result.confidence *= factor;
+  Decide(options, on_limit, result);
 }
 
 }  // namespace ridgeline

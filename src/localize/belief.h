@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
+#include "city/city_model.h"
 #include "localize/localization.h"
 #include "localize/localizer_options.h"
 #include "localize/search_poses.h"
@@ -14,5 +17,15 @@ void Believe(const SearchedPoses& found,
              const PoseScorer& scorer,
              const ConfidenceOptions& options,
              Localization& result);
+
+// Multiplies the confidence of an answer by a factor, and decides anew.
+// @param on_limit  Whether the answer lies on a limit of the search.
+void Reconsider(double factor,
+                bool on_limit,
+                const ConfidenceOptions& options,
+                Localization& result);
+
+// A building in words: its id, with that of the building that it is a part of.
+std::string NameOf(const Building& building);
 
 }  // namespace ridgeline

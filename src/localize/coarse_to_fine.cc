@@ -14,9 +14,8 @@ namespace {
 constexpr float kNone = -std::numeric_limits<float>::infinity();
 // Poses this far below the best [nat] are not looked at closely.
 constexpr float kMargin = 15.0f;
-// Places and headings first looked at lie no farther apart than this, or as far as in the volume.
-constexpr double kCoarseM = 3.5;
-constexpr double kCoarseDeg = 2.0;
+// Places and headings first looked at lie about this far apart, or as far as in the volume.
+constexpr double kCoarseM = 3.4;
 
 // One axis of the volume and which of its places are looked at first: the middles of runs of
 // places.
@@ -27,7 +26,7 @@ class Axis {
   Axis(const std::vector<double>& places, double coarse_step, bool is_circle)
       : is_circle_(is_circle) {
     if (places.size() > 1) {
-      stride_ = std::max(1, static_cast<int>(coarse_step / (places[1] - places[0]) + 1e-9));
+      stride_ = std::max(1, static_cast<int>(std::lround(coarse_step / (places[1] - places[0]))));
     }
     const auto stride = static_cast<std::size_t>(stride_);
     for (std::size_t run = 0; run < places.size(); run += stride) {
@@ -63,7 +62,7 @@ class Cascade {
         east_(volume.east_m, kCoarseM, false),
         north_(volume.north_m, kCoarseM, false),
         height_(volume.height_m, kCoarseM, false),
-        heading_(volume.heading_deg, kCoarseDeg, space.ranges().heading_deg >= 180.0) {
+        heading_(volume.heading_deg, kFirstHeadingStepDeg, space.ranges().heading_deg >= 180.0) {
     for (std::size_t p = 0; p < volume.positions(); ++p) {
       is_admissible_.push_back(PositionOf(p).has_value() ? 1 : 0);
     }
@@ -194,6 +193,7 @@ PoseVolume ComputeVolumeCoarseToFine(const PoseScorer& tolerant,
   FillVolume(tolerant, cascade.FirstLooks(), threads, first);
   const auto looks = cascade.CloseLooks(first, volume);
   volume.evaluations = first.evaluations;
+  volume.highest_first = *std::max_element(first.log_ratios.begin(), first.log_ratios.end());
   FillVolume(fine, looks, threads, volume);
   return volume;
 }

@@ -20,7 +20,10 @@ PoseVolume ComputeVolumeCoarseToFine(const PoseScorer& tolerant,
                                      const MapOptions& options,
                                      int threads);
 
-// Most distance [m] of the places first looked at.
+// Between the headings first looked at [deg].
+inline constexpr double kFirstHeadingStepDeg = 2.0;
+
+// Distance [m] of the places first looked at.
 double CoarseSpacingOf(const PoseSpaceOptions& ranges, const MapOptions& options);
 
 }  // namespace ridgeline

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "base/error.h"
 
@@ -24,27 +25,30 @@ void RequireShare(const char* name, double value) {
 
 void OutcomeModel::Visit(OptionVisitor& v) {
   v.Field("offset", offset);
-  v.Field("mass", mass);
   v.Field("explained", explained);
-  v.Field("observed", observed);
+  v.Field("above_background", above_background);
+  v.Field("mass_power", mass_power);
 }
 
-double OutcomeModel::Probability(double posterior_mass, const Goodness& goodness) const {
-  constexpr double kEdge = 1e-3;  // a mass is not known better than that
-  constexpr double kMostObserved = 15.0;
+double OutcomeModel::Probability(double posterior_mass,
+                                 const Goodness& goodness,
+                                 std::optional<double> background_nat) const {
   constexpr double kMostExplained = 1.5;
-  const double p = std::clamp(posterior_mass, kEdge, 1.0 - kEdge);
-  const double logit = offset + mass * std::log(p / (1.0 - p)) +
-                       explained * std::clamp(goodness.explained(), -0.5, kMostExplained) +
-                       observed * std::clamp(goodness.observed, -5.0, kMostObserved);
-  return 1.0 / (1.0 + std::exp(-logit));
+  constexpr double kLeastNat = -10.0;
+  constexpr double kMostNat = 25.0;
+  // Of right answers where it is known, about.
+  constexpr double kUnknownNat = 10.0;
+  const double logit =
+      offset + explained * std::clamp(goodness.explained(), -0.5, kMostExplained) +
+      above_background * std::clamp(background_nat.value_or(kUnknownNat), kLeastNat, kMostNat);
+  return std::pow(std::clamp(posterior_mass, 0.0, 1.0), mass_power) / (1.0 + std::exp(-logit));
 }
 
 void ConfidenceOptions::Visit(OptionVisitor& v) {
   v.Field("abstain_below", abstain_below);
   v.Field("doubtful_below", doubtful_below);
   v.Group("right", [this](OptionVisitor& g) { right.Visit(g); });
-  v.Group("gross", [this](OptionVisitor& g) { gross.Visit(g); });
+  v.Group("near", [this](OptionVisitor& g) { near.Visit(g); });
   v.Field("alert_limit_m", alert_limit_m);
   v.Field("temperature", temperature);
   v.Field("floor_m", floor_m);
@@ -56,6 +60,11 @@ void ConfidenceOptions::Validate() const {
   RequireShare("doubtful_below", doubtful_below);
   if (!(alert_limit_m >= 0.0)) {
     throw InputError("", "confidence.alert_limit_m", std::to_string(alert_limit_m), ">= 0");
+  }
+  for (const auto& [name, power] : {std::pair{"right.mass_power", right.mass_power},
+                                    std::pair{"near.mass_power", near.mass_power}}) {
+    if (power >= 0.0) continue;
+    throw InputError("", std::string("confidence.") + name, std::to_string(power), ">= 0");
   }
   RequirePositive("temperature", temperature);
   RequirePositive("floor_m", floor_m);

@@ -1,33 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "base/options.h"
 #include "localize/goodness.h"
 
 namespace ridgeline {
 
-// Logistic regression of an outcome of an answer on what is known of it without the truth:
-// logit P = offset + mass * logit(posterior mass) + explained * (share of the edges seen) +
-// observed * min(evidence of the edges, 15 nat). Learned by scripts/learn_confidence.py
-// (docs/confidence.md).
+// The probability of an outcome of an answer, from what is known of it without the truth: that the
+// picture is from the box at all, a logistic regression on the share of the edges that is seen and
+// on how far the box stands above the background, times a power of the posterior mass, that it is
+// from there and not from elsewhere in the box:
+// P = mass^mass_power / (1 + exp(-(offset + explained * share + above_background * nats))).
+// Learned by scripts/learn_confidence.py (docs/confidence.md).
 struct OutcomeModel {
   double offset = 0.0;
-  double mass = 0.0;
   double explained = 0.0;
-  double observed = 0.0;
+  double above_background = 0.0;  // [1 / nat]
+  double mass_power = 1.0;
 
   void Visit(OptionVisitor& v);
-  double Probability(double posterior_mass, const Goodness& goodness) const;
+  double Probability(double posterior_mass,
+                     const Goodness& goodness,
+                     std::optional<double> above_background) const;
 };
 
 struct ConfidenceOptions {
   // Answers below this confidence are withheld; those below the other are doubtful.
   double abstain_below = 0.15;
   double doubtful_below = 0.6;
-  // That an answer is within 2 m and 2 degrees, and that it is off by more than 5 m or 5 degrees;
-  // for scores that judge no buildings the confidence is the posterior mass.
-  OutcomeModel right{-6.33, 0.55, 1.68, 0.39};
-  OutcomeModel gross{8.07, -0.54, -3.08, -0.46};
+  // That an answer is within 2 m and 2 degrees, and that it is within 5 m and 5 degrees; for scores
+  // that judge no buildings the confidence is the posterior mass.
+  OutcomeModel right{-5.9, 3.7, 0.24, 1.34};
+  OutcomeModel near{-5.0, 3.7, 0.28, 0.5};
   // Answers whose protection level is above this are withheld [m]; 0: none are.
   double alert_limit_m = 0.0;
   // Widens the posterior, since samples of a picture are correlated.

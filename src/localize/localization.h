@@ -72,9 +72,12 @@ struct Localization {
   std::string reason;               // of an abstention, in words
   std::vector<std::string> doubts;  // in words
   std::optional<Pose> pose;         // world frame; present for kOk and kDoubtful
+  // The focal length that the picture agrees with best, where it was not known for sure [px].
+  std::optional<double> focal_px;
   double energy = 1.0;       // of the best mode, [0, 1]
   double confidence = 0.0;   // probability that the pose is within 2 m and 2 degrees
   double posterior_mass = 0.0;  // of the poses near the answer among those of the box
+  std::optional<double> above_background;  // SearchedPoses::above_background [nat]
   Goodness goodness;            // of the best mode; not known for scores that judge no buildings
   PoseSpread spread;
   std::optional<ProtectionLevel> protection;  // absent: none can be given
@@ -84,6 +87,13 @@ struct Localization {
   std::vector<StageTime> times;
   std::vector<std::string> notes;  // what was done beyond the box asked for
   std::vector<std::string> warnings;
+
+  // Adds the work of a localization that came before.
+  void Include(const Localization& earlier) {
+    evaluations += earlier.evaluations;
+    times.insert(times.begin(), earlier.times.begin(), earlier.times.end());
+    notes.insert(notes.begin(), earlier.notes.begin(), earlier.notes.end());
+  }
 };
 
 }  // namespace ridgeline

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "localize/localizer.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <utility>
 
 #include "base/error.h"
 #include "localize/belief.h"
+#include "localize/focal_search.h"
 #include "localize/pose_scorer.h"
+#include "localize/roof_doubt.h"
 #include "localize/search_poses.h"
 #include "localize/settle_pose.h"
 #include "localize/widen.h"
@@ -78,6 +82,23 @@ std::string NoVisibleModel(const Score& score) {
   return unusable.empty() ? "no admissible pose of the search box sees the model" : unusable;
 }
 
+// Whether two poses are one answer, the second with more freedom.
+bool IsBeside(const PoseSpace::Offset& a, const PoseSpace::Offset& b) {
+  constexpr double kBesideM = 5.0;
+  constexpr double kBesideDeg = 10.0;
+  return std::hypot(a.east_m - b.east_m, a.north_m - b.north_m) < kBesideM &&
+         std::abs(HeadingDifferenceDeg(a.heading_deg, b.heading_deg)) < kBesideDeg;
+}
+
+std::string WordsOf(const RoofShift& shift, const CityModel& model) {
+  char metres[80];
+  std::snprintf(metres,
+                sizeof(metres),
+                ": its roof is taken %+.1f m from where the model has it",
+                shift.up_m);
+  return "building " + NameOf(model.buildings[shift.building]) + metres;
+}
+
 // Looks over the box of the scorer's space, and refines what it finds.
 SearchedPoses SearchAndRefine(const PoseScorer& scorer,
                               const PictureEvidence& picture,
@@ -136,6 +157,38 @@ struct Localizer::Impl {
         footprints(city),
         scene(city, dtm ? &*dtm : nullptr, settings.projection) {}
 
+  // Search and belief for a picture whose camera is known.
+  Localization LocalizeWith(const PictureEvidence& picture,
+                            const PosePrior& prior,
+                            const PoseSpaceOptions& ranges,
+                            std::uint64_t seed,
+                            int threads) const;
+
+  // Where the picture puts roofs at other heights than the model: searches again with the roofs
+  // there, and takes that answer if it explains the picture better by far. Returns the best pose.
+  ScoredPose WithRoofsInDoubt(const PictureEvidence& picture,
+                              const PoseSpace& space,
+                              std::uint64_t seed,
+                              int threads,
+                              const ScoredPose& as_modelled,
+                              Localization& result) const;
+
+  // What one box gives.
+  struct BoxAnswer {
+    Localization result;
+    std::optional<ScoredPose> best;  // none sees the model
+    std::vector<std::string> limits;  // reached by the best
+  };
+  BoxAnswer AnswerOf(const PictureEvidence& picture,
+                     const Score& score,
+                     const PoseSpace& space,
+                     std::uint64_t seed,
+                     int threads) const;
+
+  // Whether a larger box has nothing that outweighs the smaller one's answer, which is then believed
+  // by as much less as it comes near to that.
+  bool KeepSmallerBox(BoxAnswer& smaller, BoxAnswer& larger) const;
+
   const CityModel& model;
   std::optional<HeightGrid> dtm;
   LocalizerOptions options;
@@ -163,66 +216,148 @@ Localization Localizer::Localize(const LocalizationInput& input,
   return Localize(input, impl_->options.search.space, seed, threads);
 }
 
+Localizer::Impl::BoxAnswer Localizer::Impl::AnswerOf(const PictureEvidence& picture,
+                                                     const Score& score,
+                                                     const PoseSpace& space,
+                                                     std::uint64_t seed,
+                                                     int threads) const {
+  BoxAnswer answer;
+  Localization& result = answer.result;
+  Stopwatch watch;
+  const auto lap = [&](const char* stage) { result.times.push_back({stage, watch.Lap()}); };
+  // Search: over all of the admissible box; refine what is found.
+  const PoseScorer scorer(
+      score, scene, space, picture.camera(), options.score.evidence.surface_step_deg);
+  const SearchedPoses found = SearchAndRefine(scorer, picture, options, seed, threads);
+  result.evaluations = found.evaluations;
+  if (found.volume) result.map = MapOf(*found.volume, space, model);
+  lap("search");
+  if (found.modes.empty()) {
+    result = Abstained(
+        std::move(result), LocalizationStatus::kNoVisibleModel, NoVisibleModel(score));
+    return answer;
+  }
+  // Believe: as much as the evidence carries.
+  Believe(found, scorer, options.confidence, result);
+  lap("confidence");
+  answer.best = WithRoofsInDoubt(picture, space, seed, threads, found.modes.front(), result);
+  answer.limits = LimitsReached(answer.best->offset, space);
+  lap("roofs");
+  return answer;
+}
+
+Localization Localizer::Impl::LocalizeWith(const PictureEvidence& picture,
+                                           const PosePrior& prior,
+                                           const PoseSpaceOptions& ranges,
+                                           std::uint64_t seed,
+                                           int threads) const {
+  const std::unique_ptr<Score> score = MakeScore({picture, scene, options.score});
+  // A sampler keeps to its box and its evaluations.
+  const int widenings = options.search.method == "map" ? options.search.widenings : 0;
+  PoseSpaceOptions box = ranges;
+  BoxAnswer kept;
+  for (int widening = 0;; ++widening) {
+    const PoseSpace space(prior, box, scene, dtm ? &*dtm : nullptr, footprints);
+    BoxAnswer answer = AnswerOf(picture, *score, space, seed, threads);
+    if (widening > 0) {
+      answer.result.Include(kept.result);
+      answer.result.notes.push_back("searched further: " + WordsOf(box));
+      if (KeepSmallerBox(kept, answer)) break;
+    }
+    kept = std::move(answer);
+
+    // Look further where the evidence carries nothing, or the answer lies on a limit.
+    const bool is_explained =
+        kept.best && kept.result.confidence >= options.confidence.doubtful_below;
+    if (widening == widenings || (is_explained && kept.limits.empty())) break;
+    box = Widened(space,
+                  kept.best ? kept.best->offset : PoseSpace::Offset{},
+                  !is_explained && widening == 0);
+    if (box == space.ranges()) break;
+  }
+  return std::move(kept.result);
+}
+
+bool Localizer::Impl::KeepSmallerBox(BoxAnswer& smaller, BoxAnswer& larger) const {
+  // The box asked for is far likelier than what is around it.
+  constexpr double kOutsideNat = 6.0;
+  if (!smaller.best || !larger.best) return !larger.best && smaller.best;
+  // Beyond the limit that the answer reached it goes on.
+  if (IsBeside(smaller.best->offset, larger.best->offset)) return false;
+  const double advantage = larger.best->log_ratio - smaller.best->log_ratio - kOutsideNat;
+  Localization& result = smaller.result;
+  if (advantage > 0.0 && larger.result.confidence >= result.confidence) return false;
+  // What explains less in absolute terms outweighs nothing, whatever its score.
+  Reconsider(1.0 / (1.0 + std::exp(std::min(advantage, 0.0))),
+             !smaller.limits.empty(),
+             options.confidence,
+             result);
+  result.evaluations = larger.result.evaluations;
+  result.times = std::move(larger.result.times);
+  result.notes = std::move(larger.result.notes);
+  return true;
+}
+
+ScoredPose Localizer::Impl::WithRoofsInDoubt(const PictureEvidence& picture,
+                                             const PoseSpace& space,
+                                             std::uint64_t seed,
+                                             int threads,
+                                             const ScoredPose& as_modelled,
+                                             Localization& result) const {
+  constexpr int kRounds = 2;
+  constexpr double kLeastGain = 4.0;  // [nat]
+  ScoredPose best = as_modelled;
+  std::vector<RoofShift> shifts;
+  for (int round = 0; round < kRounds; ++round) {
+    const std::vector<RoofShift> doubted = RoofsInDoubt(result.goodness);
+    if (doubted.empty()) break;
+    std::vector<RoofShift> tried = shifts;
+    tried.insert(tried.end(), doubted.begin(), doubted.end());
+    const CityModel shifted = WithShiftedRoofs(model, tried);
+    const Scene shifted_scene(shifted, dtm ? &*dtm : nullptr, options.projection);
+    const std::unique_ptr<Score> score = MakeScore({picture, shifted_scene, options.score});
+    const PoseScorer scorer(
+        *score, shifted_scene, space, picture.camera(), options.score.evidence.surface_step_deg);
+    const SearchedPoses found = SearchAndRefine(scorer, picture, options, seed, threads);
+    result.evaluations += found.evaluations;
+    if (found.modes.empty() ||
+        found.modes.front().log_ratio < best.log_ratio + kLeastGain * doubted.size()) {
+      break;
+    }
+    best = found.modes.front();
+    shifts = std::move(tried);
+    if (found.volume) result.map = MapOf(*found.volume, space, model);
+    Believe(found, scorer, options.confidence, result);
+  }
+  for (const RoofShift& shift : shifts) result.doubts.push_back(WordsOf(shift, model));
+  return best;
+}
+
 Localization Localizer::Localize(const LocalizationInput& input,
                                  const PoseSpaceOptions& ranges,
                                  std::uint64_t seed,
                                  int threads) const {
   ranges.Validate();
   CheckInput(input, impl_->model);
-  const LocalizerOptions& options = impl_->options;
-  const Scene& scene = impl_->scene;
-  Localization result;
-  Stopwatch watch;
-  const auto lap = [&](const char* stage) { result.times.push_back({stage, watch.Lap()}); };
-
   // Look: at the picture.
+  Stopwatch watch;
+  const LocalizerOptions& options = impl_->options;
   const PictureEvidence picture(UndistortImage(BgrOf(input.picture), input.camera),
                                 input.camera.Pinhole(),
                                 options.lines,
                                 options.score.evidence,
                                 threads,
                                 input.lines);
-  const std::unique_ptr<Score> score = MakeScore({picture, scene, options.score});
-  lap("picture");
+  const StageTime looked{"picture", watch.Lap()};
+  Localization result;
   if (picture.segments().size() < kMinLines) {
-    return Abstained(std::move(result),
-                     LocalizationStatus::kTooFewLines,
-                     TooFewLines(picture.segments().size()));
+    result = Abstained({}, LocalizationStatus::kTooFewLines, TooFewLines(picture.segments().size()));
+  } else {
+    result = WithBestFocal(picture, input.focal_lengths, [&](const PictureEvidence& evidence) {
+      return impl_->LocalizeWith(evidence, input.prior, ranges, seed, threads);
+    });
   }
-
-  // A sampler keeps to its box and its evaluations.
-  const int widenings = options.search.method == "map" ? options.search.widenings : 0;
-  PoseSpaceOptions box = ranges;
-  for (int widening = 0;; ++widening) {
-    // Search: over all of the admissible box; refine what is found.
-    const PoseSpace space(input.prior, box, scene, dtm(), impl_->footprints);
-    const PoseScorer scorer(
-        *score, scene, space, picture.camera(), options.score.evidence.surface_step_deg);
-    const SearchedPoses found = SearchAndRefine(scorer, picture, options, seed, threads);
-    result.evaluations += found.evaluations;
-    if (found.volume) result.map = MapOf(*found.volume, space, impl_->model);
-    lap("search");
-
-    // Believe: as much as the evidence carries; look further where it carries nothing.
-    const bool is_last = widening == widenings;
-    if (found.modes.empty() && is_last) {
-      return Abstained(
-          std::move(result), LocalizationStatus::kNoVisibleModel, NoVisibleModel(*score));
-    }
-    PoseSpace::Offset best;
-    if (!found.modes.empty()) {
-      best = found.modes.front().offset;
-      Believe(found, scorer, options.confidence, result);
-    }
-    lap("confidence");
-    const bool is_explained =
-        !found.modes.empty() && result.confidence >= options.confidence.doubtful_below;
-    if (is_last || (is_explained && LimitsReached(best, space).empty())) break;
-    const PoseSpaceOptions wider = Widened(space, best, !is_explained && widening == 0);
-    if (wider == space.ranges()) break;
-    box = wider;
-    result.notes.push_back("searched further: " + WordsOf(box));
-  }
+  result.times.insert(result.times.begin(), looked);
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "camera/focal_length.h"
 #include "camera/intrinsics.h"
 #include "camera/pose_prior.h"
 #include "city/city_model.h"
@@ -20,6 +21,9 @@ struct LocalizationInput {
   cv::Mat picture;  // as it was taken: 8 or 16 bit; grey, colour or with alpha
   CameraIntrinsics camera;
   PosePrior prior;
+  // What the camera's focal length may be where it is not known for sure, the camera's own first:
+  // each is tried, and the picture decides. Empty: it is known.
+  std::vector<FocalHypothesis> focal_lengths;
   // Undistorted segments of another detector, for lines.detector = "file".
   std::optional<std::vector<LineSegment>> lines;
 };

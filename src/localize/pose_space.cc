@@ -84,6 +84,14 @@ std::optional<Eigen::Vector3d> PoseSpace::PositionAt(double east_m,
   return Eigen::Vector3d(xy.x(), xy.y(), z);
 }
 
+std::optional<double> PoseSpace::SameHeightAboveGround(double east_m, double north_m) const {
+  if (!height_ || dtm_ == nullptr) return 0.0;
+  const std::optional<double> here = dtm_->HeightAt(center_);
+  const std::optional<double> there = dtm_->HeightAt(center_ + Eigen::Vector2d(east_m, north_m));
+  if (!here || !there) return std::nullopt;
+  return *there - *here;
+}
+
 // Above a footprint is not inside it: a drone has no roof over it.
 bool PoseSpace::IsInBuilding(const Eigen::Vector3d& position) const {
   return footprints_.Contains(position.head<2>()) &&

@@ -80,6 +80,9 @@ class PoseSpace {
 
   // Projection centre (local) at an offset; nullopt: not admissible.
   std::optional<Eigen::Vector3d> PositionAt(double east_m, double north_m, double height_m) const;
+  // The height offset of the place there that is as high above the ground as the prior; nullopt:
+  // the DTM does not cover it. Without a DTM the ground is level.
+  std::optional<double> SameHeightAboveGround(double east_m, double north_m) const;
   ViewAngles AnglesAt(const Offset& offset) const;
   // Log of the prior's density at an offset against that at the prior.
   double LogPrior(const Offset& offset) const;

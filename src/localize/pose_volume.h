@@ -26,6 +26,8 @@ struct PoseVolume {
   std::vector<float> log_ratios;
   std::uint64_t evaluations = 0;
   std::uint64_t admissible_positions = 0;
+  // The highest log ratio of the first, tolerant look of ComputeVolumeCoarseToFine().
+  double highest_first = 0.0;
 
   std::size_t orientations() const { return heading_deg.size() * tilts.size(); }
   std::size_t positions() const { return east_m.size() * north_m.size() * height_m.size(); }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "localize/background.h"
 #include "localize/coarse_to_fine.h"
 #include "localize/gravity.h"
 #include "localize/refine_pose.h"
@@ -14,6 +15,9 @@
 
 namespace ridgeline {
 namespace {
+
+// As many as a phone's box has in the first look, or half of them.
+constexpr int kBackgroundPlaces = 64;
 
 // Refines the first `count` modes, until those that are left could not become the best by gaining
 // half as much again as the most any has gained.
@@ -57,27 +61,67 @@ std::vector<Tilt> TiltsOf(const PoseScorer& scorer,
                    options.tilts);
 }
 
-// Between the places of a wide grid the model's edges are off by as much as the model errs. Null:
-// the score as it is.
-std::unique_ptr<Score> TolerantOf(const PoseScorer& scorer, const MapOptions& options) {
-  const double spacing_m = SpacingOf(scorer.space().ranges(), options);
-  return spacing_m > 1.0 ? scorer.score().Tolerant(spacing_m) : nullptr;
+std::vector<Eigen::Matrix3f> RotationsOf(std::span<const Tilt> tilts) {
+  std::vector<Eigen::Matrix3f> cam_from_level;
+  for (const Tilt& tilt : tilts) {
+    cam_from_level.push_back(CamFromWorld(ViewAngles{0.0, tilt.pitch_deg, tilt.roll_deg})
+                                 .toRotationMatrix()
+                                 .cast<float>());
+  }
+  return cam_from_level;
 }
 
+// A score as a map uses it, quick under the map's tilts. Between the places of a wide grid the
+// model's edges are off by as much as the model errs: there the tolerance is wider.
+class MapScore {
+ public:
+  // @param tolerance  By which the model's errors grow; 1 or less: as they are.
+  MapScore(const Score& score, double tolerance, std::span<const Tilt> tilts) : score_(&score) {
+    if (tolerance > 1.0) Take(tolerant_, score.Tolerant(tolerance));
+    Take(quick_, score_->ForTilts(RotationsOf(tilts)));
+  }
+
+  const Score& operator*() const { return *score_; }
+  bool is_tolerant() const { return tolerant_ != nullptr; }
+
+ private:
+  void Take(std::unique_ptr<Score>& place, std::unique_ptr<Score> score) {
+    place = std::move(score);
+    if (place) score_ = place.get();
+  }
+
+  const Score* score_;
+  std::unique_ptr<Score> tolerant_;
+  std::unique_ptr<Score> quick_;
+};
+
 // The poses of MapPoses() that can be the best or count beside it.
-PoseVolume MapLikelyPoses(const PoseScorer& scorer,
-                          const PictureEvidence& picture,
-                          const MapOptions& options,
-                          int threads) {
-  const std::unique_ptr<Score> coarse =
-      scorer.score().Tolerant(std::max(1.0, CoarseSpacingOf(scorer.space().ranges(), options)));
-  if (!coarse) return MapPoses(scorer, picture, options, threads);
-  const std::unique_ptr<Score> tolerant = TolerantOf(scorer, options);
-  return ComputeVolumeCoarseToFine(scorer.With(*coarse),
-                                   tolerant ? scorer.With(*tolerant) : scorer,
-                                   TiltsOf(scorer, picture, options),
-                                   options,
-                                   threads);
+SearchedPoses SearchMap(const PoseScorer& scorer,
+                        const PictureEvidence& picture,
+                        const MapOptions& options,
+                        int threads) {
+  const PoseSpaceOptions& ranges = scorer.space().ranges();
+  const std::vector<Tilt> tilts = TiltsOf(scorer, picture, options);
+  SearchedPoses found;
+  found.spacing_m = SpacingOf(ranges, options);
+  const MapScore coarse(scorer.score(), CoarseSpacingOf(ranges, options), tilts);
+  if (!coarse.is_tolerant()) {
+    found.volume = MapPoses(scorer, picture, options, threads);
+    found.evaluations = found.volume->evaluations;
+    return found;
+  }
+  const MapScore fine(scorer.score(), SpacingOf(ranges, options), tilts);
+  const PoseScorer first = scorer.With(*coarse);
+  found.volume = ComputeVolumeCoarseToFine(first, scorer.With(*fine), tilts, options, threads);
+  const Background background =
+      BackgroundOf(first, tilts, kFirstHeadingStepDeg, kBackgroundPlaces, threads);
+  if (!background.log_ratios.empty()) {
+    found.above_background =
+        found.volume->highest_first -
+        *std::max_element(background.log_ratios.begin(), background.log_ratios.end());
+  }
+  found.evaluations = found.volume->evaluations + background.evaluations;
+  return found;
 }
 
 }  // namespace
@@ -86,11 +130,9 @@ PoseVolume MapPoses(const PoseScorer& scorer,
                     const PictureEvidence& picture,
                     const MapOptions& options,
                     int threads) {
-  const std::unique_ptr<Score> tolerant = TolerantOf(scorer, options);
-  return ComputeVolume(tolerant ? scorer.With(*tolerant) : scorer,
-                       TiltsOf(scorer, picture, options),
-                       options,
-                       threads);
+  const std::vector<Tilt> tilts = TiltsOf(scorer, picture, options);
+  const MapScore score(scorer.score(), SpacingOf(scorer.space().ranges(), options), tilts);
+  return ComputeVolume(scorer.With(*score), tilts, options, threads);
 }
 
 SearchedPoses SearchPoses(const PoseScorer& scorer,
@@ -100,9 +142,7 @@ SearchedPoses SearchPoses(const PoseScorer& scorer,
                           int threads) {
   SearchedPoses found;
   if (options.method == "map") {
-    found.volume = MapLikelyPoses(scorer, picture, options.map, threads);
-    found.spacing_m = SpacingOf(scorer.space().ranges(), options.map);
-    found.evaluations = found.volume->evaluations;
+    found = SearchMap(scorer, picture, options.map, threads);
     found.modes = FindModes(*found.volume, scorer.space(), options.map);
   } else {
     SampledSearch search = SampleSearch(scorer, options, seed, threads);

@@ -18,6 +18,9 @@ struct SearchedPoses {
   std::optional<PoseVolume> volume;  // of the dense map; absent for samplers
   double spacing_m = 1.0;            // between the places looked at
   std::uint64_t evaluations = 0;
+  // How far the best of the box stands above the best of the background (background.h) [nat]; not
+  // known for samplers, for scores without a tolerance, and where there are no other places.
+  std::optional<double> above_background;
 };
 
 // The dense map, or the sampler, that the options name. The map looks under the tilts that the

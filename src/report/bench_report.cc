@@ -169,7 +169,7 @@ ReportRun RunOf(const BenchRun& run, const Query& query, const Localizer& locali
   if (localization.pose) report.position_covariance = localization.spread.position_covariance;
   if (!localization.map.energies.empty()) report.map = MapOf(localization.map);
   AddGround(localizer, run.ranges, report);
-  const PinholeCamera camera = query.camera->Pinhole();
+  const PinholeCamera camera = CameraOf(query, localization);
   report.hfov_deg = HorizontalFieldDeg(camera);
   const Overlay overlay = ResultOverlay(localizer, camera, run);
   report.prior_layers = {overlay.layers.front()};

@@ -261,4 +261,32 @@ ColourInformation::Cues ColourInformation::Of(const SurfacePanorama& surfaces,
   return Of(workspace.groups, groups.count, workspace);
 }
 
+ColourInformation::Cues ColourInformation::Of(const SurfacePanorama& surfaces,
+                                              const SurfaceGroups& groups,
+                                              const TiltedRays& rays,
+                                              const TiltedRays::Turned& turned,
+                                              Workspace& workspace) const {
+  if (!has_colours_) return {};
+  // Whole fours: the last may have copies of a ray.
+  workspace.groups.resize((colours_.size() + 3) / 4 * 4);
+  rays.ForCells(surfaces, turned, [&](std::size_t i, const simd::Int4& cells) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      workspace.groups[4 * i + k] =
+          cells[k] < 0 ? kNoGroup : groups.of_cell[static_cast<std::size_t>(cells[k])];
+    }
+  });
+  return Of(workspace.groups, groups.count, workspace);
+}
+
+std::vector<Eigen::Vector3f> ColourInformation::cell_rays() const {
+  std::vector<Eigen::Vector3f> rays;
+  rays.reserve(colours_.size());
+  for (int y = 0; y < camera_.height; ++y) {
+    for (int x = 0; x < camera_.width; ++x) {
+      rays.push_back(camera_.RayFromImage({x + 0.5, y + 0.5}).cast<float>());
+    }
+  }
+  return rays;
+}
+
 }  // namespace ridgeline

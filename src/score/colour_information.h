@@ -11,6 +11,7 @@
 #include "projection/simd4.h"
 #include "projection/surface_panorama.h"
 #include "score/surface_groups.h"
+#include "score/tilted_rays.h"
 
 namespace ridgeline {
 
@@ -58,8 +59,18 @@ class ColourInformation {
           const SurfaceGroups& groups,
           const Eigen::Matrix3f& cam_from_world,
           Workspace& workspace) const;
+  // The same under a tilt.
+  // @param rays  Those of cell_rays(). @param turned  Of them.
+  Cues Of(const SurfacePanorama& surfaces,
+          const SurfaceGroups& groups,
+          const TiltedRays& rays,
+          const TiltedRays::Turned& turned,
+          Workspace& workspace) const;
   // Of the groups behind the cells, row by row; kNoGroup: not known.
   Cues Of(std::span<const std::uint16_t> groups, int group_count, Workspace& workspace) const;
+
+  // Through the centres of the cells, row by row [camera axes].
+  std::vector<Eigen::Vector3f> cell_rays() const;
 
   bool has_colours() const { return has_colours_; }
   // Of the grid.

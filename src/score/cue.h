@@ -42,6 +42,11 @@ class Cue {
 
   // As Score::Tolerant(). Null: the tolerance does not matter.
   virtual std::shared_ptr<const Cue> Tolerant(double /*factor*/) const { return nullptr; }
+  // As Score::ForTilts(). Null: nothing is to be gained.
+  virtual std::shared_ptr<const Cue> ForTilts(
+      std::span<const Eigen::Matrix3f> /*cam_from_level*/) const {
+    return nullptr;
+  }
 };
 
 // What a cue is made for; must outlive it.

@@ -54,16 +54,22 @@ std::unique_ptr<Score::Workspace> EvidenceScore::NewWorkspace() const {
   return memory;
 }
 
-std::unique_ptr<Score> EvidenceScore::Tolerant(double factor) const {
-  std::unique_ptr<EvidenceScore> tolerant(new EvidenceScore(picture_, scene_));
-  tolerant->lines_ = lines_;
-  tolerant->edge_weights_ = edge_weights_;
-  tolerant->parts_ = parts_;
-  tolerant->weights_ = weights_;
-  for (Part& part : tolerant->parts_) {
-    if (std::shared_ptr<const Cue> cue = part.cue->Tolerant(factor)) part.cue = std::move(cue);
+std::unique_ptr<Score> EvidenceScore::With(
+    const std::function<std::shared_ptr<const Cue>(const Cue&)>& change) const {
+  std::unique_ptr<EvidenceScore> other(new EvidenceScore(*this));
+  for (Part& part : other->parts_) {
+    if (std::shared_ptr<const Cue> cue = change(*part.cue)) part.cue = std::move(cue);
   }
-  return tolerant;
+  return other;
+}
+
+std::unique_ptr<Score> EvidenceScore::Tolerant(double factor) const {
+  return With([&](const Cue& cue) { return cue.Tolerant(factor); });
+}
+
+std::unique_ptr<Score> EvidenceScore::ForTilts(
+    std::span<const Eigen::Matrix3f> cam_from_level) const {
+  return With([&](const Cue& cue) { return cue.ForTilts(cam_from_level); });
 }
 
 std::vector<std::string> EvidenceScore::cue_names() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -32,6 +33,7 @@ class EvidenceScore final : public Score {
                                         const Pose& cam_from_local,
                                         Score::Workspace& workspace) const override;
   std::unique_ptr<Score> Tolerant(double factor) const override;
+  std::unique_ptr<Score> ForTilts(std::span<const Eigen::Matrix3f> cam_from_level) const override;
 
   // Names of the cues' values, and the values of a pose, without their weights; valid until the
   // next use of the workspace.
@@ -48,8 +50,9 @@ class EvidenceScore final : public Score {
   };
   struct Memory;
 
-  EvidenceScore(const PictureEvidence& picture, const Scene& scene)
-      : picture_(picture), scene_(scene) {}
+  // This score with the cues that `change` makes of its own; null: as they are.
+  std::unique_ptr<Score> With(
+      const std::function<std::shared_ptr<const Cue>(const Cue&)>& change) const;
   void ReadPose(const Pose& cam_from_local, const PositionView& view, Memory& memory) const;
 
   const PictureEvidence& picture_;

@@ -15,7 +15,6 @@ namespace {
 using simd::Float4;
 
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr float kMinHorizontal = 0.1f;  // flat roofs and floors have no course
 constexpr int kBins = 36;
 // The background is this share uniform, so that a picture of one direction still tells something.
 constexpr float kUniformShare = 0.3f;
@@ -124,6 +123,18 @@ float FacadeDirections::LogRatioAt(std::size_t table, float square) const {
   return values[0] + t * (values[1] - values[0]);
 }
 
+simd::Float4 FacadeDirections::LogRatios(const Lines& lines,
+                                         const simd::Vec3x4& course,
+                                         const simd::Vec3x4& rise) const {
+  const Float4 squares =
+      inverse_variance_ * simd::Min(SquareOfSine(lines, course), SquareOfSine(lines, rise));
+  Float4 ratios;
+  for (int lane = 0; lane < 4; ++lane) {
+    ratios[lane] = LogRatioAt(lines.table[static_cast<std::size_t>(lane)], squares[lane]);
+  }
+  return lines.weight * ratios;
+}
+
 float FacadeDirections::LogRatio(const SurfacePanorama& surfaces,
                                  const CityModel& model,
                                  const Eigen::Matrix3f& cam_from_world) const {
@@ -146,21 +157,18 @@ float FacadeDirections::LogRatio(const SurfacePanorama& surfaces,
       const std::uint32_t surface = surfaces.surfaces[static_cast<std::size_t>(cells[lane])];
       if (surface == kNoSurface || surface == kTerrainSurface) continue;
       const Eigen::Vector3f& normal = model.surfaces[surface].normal;
-      if (normal.head<2>().squaredNorm() < kMinHorizontal * kMinHorizontal) continue;
+      if (normal.head<2>().squaredNorm() < kMinHorizontalNormal * kMinHorizontalNormal) {
+        continue;
+      }
       const Eigen::Vector3f along(-normal.y(), normal.x(), 0.0f);
       simd::SetLane(course, lane, along);
       simd::SetLane(rise, lane, normal.cross(along));
       weight[lane] = lines.weight[lane];
     }
     if (simd::Bits(weight > 0.0f) == 0) continue;
-    const Float4 squares =
-        inverse_variance_ * simd::Min(SquareOfSine(lines, Rotated(to_camera, course)),
-                                      SquareOfSine(lines, Rotated(to_camera, rise)));
-    Float4 ratios;
-    for (int lane = 0; lane < 4; ++lane) {
-      ratios[lane] = LogRatioAt(lines.table[static_cast<std::size_t>(lane)], squares[lane]);
-    }
-    sum += weight * ratios;
+    sum += weight > 0.0f
+               ? LogRatios(lines, Rotated(to_camera, course), Rotated(to_camera, rise))
+               : simd::Splat(0.0f);
   }
   return sum[0] + sum[1] + sum[2] + sum[3];
 }

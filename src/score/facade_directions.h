@@ -12,6 +12,7 @@
 #include "lines/line_segment.h"
 #include "projection/simd4.h"
 #include "projection/surface_panorama.h"
+#include "score/surface_groups.h"
 
 namespace ridgeline {
 
@@ -46,7 +47,6 @@ class FacadeDirections {
                  const CityModel& model,
                  const Eigen::Matrix3f& cam_from_world) const;
 
- private:
   // Four lines side by side.
   struct Lines {
     simd::Vec3x4 ray;  // through the middle, camera axes, z = 1
@@ -54,6 +54,15 @@ class FacadeDirections {
     simd::Float4 weight;
     std::array<std::size_t, 4> table;  // first entry of the direction's row in log_ratios_
   };
+  // Of the last four some may be missing: their weights are 0.
+  const std::vector<Lines>& lines() const { return lines_; }
+
+  // Log ratios of four lines, weighted, on surfaces with these directions [camera axes, any length].
+  simd::Float4 LogRatios(const Lines& lines,
+                         const simd::Vec3x4& course,
+                         const simd::Vec3x4& rise) const;
+
+ private:
   static simd::Float4 SquareOfSine(const Lines& lines, const simd::Vec3x4& direction);
   // Log likelihood ratio of a line whose direction is off by sqrt(square) standard deviations.
   float LogRatioAt(std::size_t table, float square) const;

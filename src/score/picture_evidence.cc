@@ -15,6 +15,12 @@ PinholeCamera WorkCamera(const PinholeCamera& camera, int work_size_px) {
   return camera.Scaled(std::min(1.0, static_cast<double>(work_size_px) / longer));
 }
 
+PinholeCamera WithFocal(PinholeCamera camera, double scale) {
+  camera.fx *= scale;
+  camera.fy *= scale;
+  return camera;
+}
+
 cv::Mat Reduced(const cv::Mat& picture, const PinholeCamera& camera) {
   cv::Mat reduced;
   cv::resize(picture, reduced, cv::Size(camera.width, camera.height), 0.0, 0.0, cv::INTER_AREA);
@@ -62,5 +68,15 @@ PictureEvidence::PictureEvidence(const cv::Mat& bgr,
       segments_(WorkSegments(bgr_, camera_, camera, lines, given_lines)),
       foliage_(FoliageMask(bgr_)),
       field_(segments_, camera_.width, camera_.height, threads, foliage_) {}
+
+PictureEvidence::PictureEvidence(const PictureEvidence& other, double focal_scale)
+    : full_bgr_(other.full_bgr_),
+      full_camera_(WithFocal(other.full_camera_, focal_scale)),
+      camera_(WithFocal(other.camera_, focal_scale)),
+      bgr_(other.bgr_),
+      is_one_colour_(other.is_one_colour_),
+      segments_(other.segments_),
+      foliage_(other.foliage_),
+      field_(other.field_) {}
 
 }  // namespace ridgeline

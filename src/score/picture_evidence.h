@@ -26,6 +26,8 @@ class PictureEvidence {
                   int threads,
                   const std::optional<std::vector<LineSegment>>& given_lines = std::nullopt);
 
+  // The same picture by a camera whose focal length is another.
+  PictureEvidence(const PictureEvidence& other, double focal_scale);
   PictureEvidence(const PictureEvidence&) = delete;
   PictureEvidence& operator=(const PictureEvidence&) = delete;
 

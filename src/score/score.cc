@@ -23,6 +23,10 @@ void Score::LogRatios(const PositionView& view,
 
 std::unique_ptr<Score> Score::Tolerant(double /*factor*/) const { return nullptr; }
 
+std::unique_ptr<Score> Score::ForTilts(std::span<const Eigen::Matrix3f> /*cam_from_level*/) const {
+  return nullptr;
+}
+
 double Score::EnergyOf(double log_ratio) {
   return std::isnan(log_ratio) ? 1.0 : 1.0 / (1.0 + std::exp(log_ratio / kScale));
 }

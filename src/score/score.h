@@ -57,6 +57,11 @@ class Score {
   // on a coarse grid. Refers to this one's picture. Null: the tolerance is the same on any grid.
   virtual std::unique_ptr<Score> Tolerant(double factor) const;
 
+  // The same score, quick for poses under one of a few tilts: rotations from a level frame (right,
+  // ahead, up) into the camera, turned by any heading. Values differ by the rounding of headings to
+  // a quarter of a degree. Refers to this one's picture. Null: nothing is to be gained.
+  virtual std::unique_ptr<Score> ForTilts(std::span<const Eigen::Matrix3f> cam_from_level) const;
+
   // [0, 1], 0 best: 1 / (1 + exp(log_ratio / 10)); 1 where nothing is in view.
   static double EnergyOf(double log_ratio);
   // The inverse, for scores that are energies by themselves.

@@ -22,10 +22,22 @@ cv::Mat SkyLogOddsOf(const PictureEvidence& picture) {
 
 class SkyCue final : public Cue {
  public:
-  SkyCue(const PictureEvidence& picture, const SkyTableOptions& options)
-      : table_(SkyLogOddsOf(picture), options),
-        camera_(picture.camera().Scaled(static_cast<double>(table_.columns()) /
-                                        picture.camera().width)) {}
+  SkyCue(const cv::Mat& log_odds, const PinholeCamera& camera, const SkyTableOptions& options)
+      : log_odds_(log_odds),
+        options_(options),
+        table_(log_odds, options),
+        camera_(camera.Scaled(static_cast<double>(table_.columns()) / camera.width)) {}
+
+  // Half as many columns and rows for a coarse grid.
+  std::shared_ptr<const Cue> Tolerant(double factor) const override {
+    constexpr int kLeastColumns = 100;
+    if (!(factor > 1.0) || table_.columns() < 2 * kLeastColumns) return nullptr;
+    cv::Mat half;
+    cv::resize(log_odds_, half, {}, 0.5, 0.5, cv::INTER_AREA);
+    SkyTableOptions options = options_;
+    options.pixel_weight *= 2.0;  // a pixel is as high as two
+    return std::make_shared<SkyCue>(half, camera_, options);
+  }
 
   std::unique_ptr<Workspace> NewWorkspace() const override {
     auto memory = std::make_unique<Memory>();
@@ -37,7 +49,13 @@ class SkyCue final : public Cue {
                  Workspace* workspace,
                  std::span<float> log_ratios) const override {
     std::vector<float>& rows = static_cast<Memory*>(workspace)->rows;
-    SkylineRows(pose.view.skyline, camera_, pose.cam_from_local, rows);
+    const PositionView& view = pose.view;
+    SkylineRows(view.skyline,
+                view.visible.first_azimuth,
+                view.visible.azimuth_step,
+                camera_,
+                pose.cam_from_local,
+                rows);
     log_ratios[0] = static_cast<float>(SkyLogRatio(table_, rows));
   }
 
@@ -46,6 +64,8 @@ class SkyCue final : public Cue {
     std::vector<float> rows;  // of the model's skyline, by column
   };
 
+  cv::Mat log_odds_;
+  SkyTableOptions options_;
   SkyTable table_;
   PinholeCamera camera_;
 };
@@ -60,7 +80,8 @@ constinit const CuePlugin kSkyCue = {
     .parts = {.edges_and_skyline = true, .surfaces = false},
     .declare = [](OptionGroups& options) { options.Add<SkyTableOptions>("sky"); },
     .make = [](const CueContext& c) -> std::shared_ptr<const Cue> {
-      return std::make_shared<SkyCue>(c.picture, c.options.Get<SkyTableOptions>());
+      return std::make_shared<SkyCue>(
+          SkyLogOddsOf(c.picture), c.picture.camera(), c.options.Get<SkyTableOptions>());
     }};
 
 }  // namespace ridgeline

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "projection/simd4.h"
 
@@ -62,13 +63,10 @@ void DrawRows(const SkylinePoint& a, const SkylinePoint& b, std::span<float> row
   }
 }
 
-}  // namespace
-
-void SkylineRows(std::span<const Eigen::Vector3f> directions,
+void DrawSkyline(std::span<const Eigen::Vector3f> directions,
                  const PinholeCamera& camera,
                  const Eigen::Matrix3f& cam_from_world,
                  std::span<float> rows) {
-  std::fill(rows.begin(), rows.end(), std::numeric_limits<float>::quiet_NaN());
   const auto width = static_cast<float>(rows.size());
   SkylinePoint last;
   std::array<SkylinePoint, kChunk> points;
@@ -89,6 +87,59 @@ void SkylineRows(std::span<const Eigen::Vector3f> directions,
       }
     }
     last = points[count - 1];
+  }
+}
+
+// Half the range of azimuths around that of the optical axis outside of which no direction is in
+// the picture: that of the cone around its corners; pi: there is no such range.
+double HalfRangeInView(const PinholeCamera& camera, const Eigen::Matrix3f& cam_from_world) {
+  double least_cosine = 1.0;
+  for (const double x : {0.0, static_cast<double>(camera.width)}) {
+    for (const double y : {0.0, static_cast<double>(camera.height)}) {
+      least_cosine = std::min(least_cosine, camera.RayFromImage({x, y}).normalized().z());
+    }
+  }
+  const double sine = std::sqrt(1.0 - least_cosine * least_cosine);
+  const double level = std::hypot(cam_from_world(2, 0), cam_from_world(2, 1));
+  return sine < level ? std::asin(sine / level) : std::numbers::pi;
+}
+
+}  // namespace
+
+void SkylineRows(std::span<const Eigen::Vector3f> directions,
+                 const PinholeCamera& camera,
+                 const Eigen::Matrix3f& cam_from_world,
+                 std::span<float> rows) {
+  std::fill(rows.begin(), rows.end(), std::numeric_limits<float>::quiet_NaN());
+  DrawSkyline(directions, camera, cam_from_world, rows);
+}
+
+void SkylineRows(std::span<const Eigen::Vector3f> directions,
+                 double first_azimuth,
+                 double step,
+                 const PinholeCamera& camera,
+                 const Eigen::Matrix3f& cam_from_world,
+                 std::span<float> rows) {
+  std::fill(rows.begin(), rows.end(), std::numeric_limits<float>::quiet_NaN());
+  if (directions.empty()) return;
+  const double half_range = HalfRangeInView(camera, cam_from_world) + step;
+  if (half_range >= std::numbers::pi) return DrawSkyline(directions, camera, cam_from_world, rows);
+  const double axis = std::atan2(cam_from_world(2, 0), cam_from_world(2, 1));
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  // The range once, and again where it comes round after a turn.
+  double from = std::remainder(axis - half_range - first_azimuth, kTurn);
+  if (from + 2.0 * half_range >= kTurn) from -= kTurn;
+  const auto count = static_cast<double>(directions.size());
+  std::size_t done = 0;
+  for (const double start : {from, from + kTurn}) {
+    const double first = std::clamp(std::floor(start / step), static_cast<double>(done), count);
+    const double end = std::clamp(std::ceil((start + 2.0 * half_range) / step) + 1.0, first, count);
+    DrawSkyline(directions.subspan(static_cast<std::size_t>(first),
+                                   static_cast<std::size_t>(end - first)),
+                camera,
+                cam_from_world,
+                rows);
+    done = static_cast<std::size_t>(end);
   }
 }
 

@@ -20,6 +20,15 @@ void SkylineRows(std::span<const Eigen::Vector3f> directions,
                  const Eigen::Matrix3f& cam_from_world,
                  std::span<float> rows);
 
+// The same for directions at azimuths `first_azimuth` + i * `step` [rad, step > 0]: those beside the
+// picture are passed over, which makes the whole circle cost no more than what is in view.
+void SkylineRows(std::span<const Eigen::Vector3f> directions,
+                 double first_azimuth,
+                 double step,
+                 const PinholeCamera& camera,
+                 const Eigen::Matrix3f& cam_from_world,
+                 std::span<float> rows);
+
 // Mean of the table's log ratios over the columns; unknown columns count 0.
 double SkyLogRatio(const SkyTable& table, std::span<const float> rows);
 

@@ -111,6 +111,8 @@ void WalkOptions::Visit(OptionVisitor& v) {
   v.Field("tilt_sigma_deg", tilt_sigma_deg);
   v.Field("acceleration_noise", acceleration_noise);
   v.Field("pressure_noise_hpa", pressure_noise_hpa);
+  v.Field("gyro_bias", gyro_bias);
+  v.Field("gyro_noise", gyro_noise);
 }
 
 void WalkOptions::Validate() const {
@@ -145,7 +147,9 @@ void WalkOptions::Validate() const {
       {"altitude_jump_m", altitude_jump_m},
       {"tilt_sigma_deg", tilt_sigma_deg},
       {"acceleration_noise", acceleration_noise},
-      {"pressure_noise_hpa", pressure_noise_hpa}};
+      {"pressure_noise_hpa", pressure_noise_hpa},
+      {"gyro_bias", gyro_bias},
+      {"gyro_noise", gyro_noise}};
   for (const auto& [name, value] : not_negative) Require(value >= 0.0, name, value, "at least 0");
 }
 

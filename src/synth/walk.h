@@ -43,6 +43,9 @@ struct WalkOptions {
   // Accelerometer noise on each axis while walking [m/s^2].
   double acceleration_noise = 0.15;
   double pressure_noise_hpa = 0.03;
+  // Gyroscope: sigma of its bias and of its noise [rad/s].
+  double gyro_bias = 0.003;
+  double gyro_noise = 0.01;
 
   void Visit(OptionVisitor& v);
   // Throws InputError naming the field, e.g. "walk.frames".

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -17,6 +18,7 @@ using Eigen::Vector3d;
 
 constexpr double kDeg = 180.0 / std::numbers::pi;
 constexpr std::uint64_t kSensorStage = 0x91;
+constexpr std::uint64_t kGyroStage = 0x93;
 constexpr double kGravity = 9.81;
 // Share of frames at which the altitude jumps, and how many frames a jump lasts.
 constexpr double kJumpShare = 0.1;
@@ -51,6 +53,18 @@ Vector3d AccelerationOf(const Pose& pose) {
   return kGravity * Vector3d(-up.y(), -up.x(), -up.z());
 }
 
+// Rotation rates [rad/s] of a phone held in landscape, at frame i, by the frames beside it. No
+// instrument is as slow as the film: what the hand does between the frames is not in them.
+Vector3d RatesOf(const std::vector<Pose>& poses, std::size_t i, double frame_s) {
+  if (poses.size() < 2) return Vector3d::Zero();
+  const std::size_t a = i == 0 ? 0 : i - 1;
+  const std::size_t b = std::min(i + 1, poses.size() - 1);
+  const Eigen::AngleAxisd turn(poses[b].cam_from_world * poses[a].cam_from_world.conjugate());
+  // The axes turn against what they see.
+  const Vector3d in_camera = -turn.angle() * turn.axis() / (static_cast<double>(b - a) * frame_s);
+  return {-in_camera.y(), -in_camera.x(), -in_camera.z()};
+}
+
 // Grid azimuth of true north.
 double ConvergenceDeg(const Crs& crs, const Vector2d& east_north) {
   constexpr double kStepM = 100.0;
@@ -79,7 +93,10 @@ std::string WalkSensorsCsv(const Town& town,
       std::to_string(options.declination_deg) +
       " deg), pitch and roll by gyroscope, acceleration of the phone in landscape\n"
       "id,time_s,lat_deg,lon_deg,alt_m,compass_heading_deg,pitch_deg,roll_deg,acc_x,acc_y,acc_z,"
-      "pressure_hpa\n";
+      "pressure_hpa,gyro_x,gyro_y,gyro_z\n";
+  Random gyro(static_cast<std::uint64_t>(town.options.seed), kGyroStage);
+  Vector3d gyro_bias;
+  for (int axis = 0; axis < 3; ++axis) gyro_bias[axis] = options.gyro_bias * gyro.Normal();
   double jump_m = 0.0;
   int jump_left = 0;
   for (std::size_t i = 0; i < cam_from_local.size(); ++i) {
@@ -111,10 +128,13 @@ std::string WalkSensorsCsv(const Town& town,
     for (int axis = 0; axis < 3; ++axis) {
       acceleration[axis] += options.acceleration_noise * random.Normal();
     }
-    char row[320];
+    // A bias that stays and a noise, after everything else, so that older numbers are as they were.
+    Vector3d rates = RatesOf(cam_from_local, i, frame_s) + gyro_bias;
+    for (int axis = 0; axis < 3; ++axis) rates[axis] += options.gyro_noise * gyro.Normal();
+    char row[420];
     std::snprintf(row,
                   sizeof row,
-                  "frame_%04zu,%.3f,%.8f,%.8f,%.2f,%.2f,%.2f,%.2f,%.3f,%.3f,%.3f,%.3f\n",
+                  "frame_%04zu,%.3f,%.8f,%.8f,%.2f,%.2f,%.2f,%.2f,%.3f,%.3f,%.3f,%.3f,%.5f,%.5f,%.5f\n",
                   i,
                   static_cast<double>(i) * frame_s,
                   place->x(),
@@ -126,7 +146,10 @@ std::string WalkSensorsCsv(const Town& town,
                   acceleration.x(),
                   acceleration.y(),
                   acceleration.z(),
-                  PressureAt(world.z()) + options.pressure_noise_hpa * random.Normal());
+                  PressureAt(world.z()) + options.pressure_noise_hpa * random.Normal(),
+                  rates.x(),
+                  rates.y(),
+                  rates.z());
     csv += row;
   }
   return csv;

@@ -85,6 +85,35 @@ TEST(PinholeCamera, ScaledKeepsRays) {
   EXPECT_TRUE(camera.RayFromImage(full_px).isApprox(point / point.z(), 1e-12));
 }
 
+// Pixels hold their own column or row, so that what comes out is where it came from.
+TEST(UndistortImage, TakesEveryPixelFromItsDistortedPlace) {
+  const CameraIntrinsics camera = OpenCvCamera();
+  cv::Mat columns(960, 1280, CV_32F);
+  cv::Mat rows(columns.size(), CV_32F);
+  for (int y = 0; y < columns.rows; ++y) {
+    for (int x = 0; x < columns.cols; ++x) {
+      columns.at<float>(y, x) = static_cast<float>(x);
+      rows.at<float>(y, x) = static_cast<float>(y);
+    }
+  }
+  const cv::Mat x_of = UndistortImage(columns, camera);
+  const cv::Mat y_of = UndistortImage(rows, camera);
+  // cv::remap rounds to 1 / 32 px.
+  constexpr double kTolerancePx = 0.5 / 32.0 + 0.01;
+  int inside = 0;
+  for (int y = 0; y < columns.rows; y += 3) {
+    for (int x = 0; x < columns.cols; x += 5) {
+      const Eigen::Vector2d px =
+          camera.Distort(camera.Pinhole().RayFromImage({x + 0.5, y + 0.5}).head<2>());
+      if (px.x() < 1.0 || px.y() < 1.0 || px.x() > 1279.0 || px.y() > 959.0) continue;
+      ++inside;
+      ASSERT_NEAR(x_of.at<float>(y, x), px.x() - 0.5, kTolerancePx) << x << ", " << y;
+      ASSERT_NEAR(y_of.at<float>(y, x), px.y() - 0.5, kTolerancePx) << x << ", " << y;
+    }
+  }
+  EXPECT_GT(inside, 60000);
+}
+
 TEST(UndistortImage, MovesABrightDotToItsPinholePlace) {
   const CameraIntrinsics camera = OpenCvCamera();
   const Eigen::Vector3d ray(0.45, 0.3, 1.0);

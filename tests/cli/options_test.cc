@@ -57,6 +57,7 @@ const std::map<std::string, std::string>& Bases() {
       {"augment",
        "augment --dataset {town}/dataset.json --query street_000 --building {in}/box.obj --place "
        "{place} --light-azimuth 60 --out {out}/a.png"},
+      {"calibrate", "calibrate {in}/boards --board 5x4 --out {out}/c.json"},
       {"synth",
        "synth --out {out}/t --size 64x64 --queries 0 --tilted 0 --portrait 0 --drone 0" +
            kOneBlock},
@@ -79,6 +80,7 @@ const std::map<std::string, std::map<std::string, std::string>>& Cases() {
         {"--prior", "--prior {in}/moved.json"},
         {"--declination", "--declination 3"},
         {"--lines", "--lines {in}/lines.txt"},
+        {"--sensors", "--sensors {in}/none.csv"},
         {"--out", "--out {out}/other"},
         {"--report", "--report {out}/r.html"},
         {"--seed", "--seed 2"},
@@ -90,6 +92,7 @@ const std::map<std::string, std::map<std::string, std::string>>& Cases() {
         {"--perturb", "--perturb 1,1,0,2"},
         {"--protocol", "--protocol known-tilt"},
         {"--world", "--world {town}/dataset.json"},
+        {"--sensors", "--sensors {in}/none.csv"},
         {"--no-report", "--no-report"},
         {"--seed", "--seed 2"},
         {"--seeds", "--seeds 2"},
@@ -166,6 +169,7 @@ const std::map<std::string, std::map<std::string, std::string>>& Cases() {
         {"--report", "--report {out}/k.html"},
         {"--overlays", "--overlays"},
         {"--columns", "--columns"},
+        {"--skylines", "--skylines {in}"},
         {"--config", "--config {in}/none.json"},
         {"--set", "--set match.rounds=none"}}},
       {"augment",
@@ -185,7 +189,27 @@ const std::map<std::string, std::map<std::string, std::string>>& Cases() {
         {"--light-azimuth", "--light-azimuth 90"},
         {"--light-elevation", "--light-elevation 80"},
         {"--opacity", "--opacity 0.5"},
+        {"--y-up", "--y-up"},
+        {"--sun", "--sun noon"},
+        {"--shadows", "--shadows --light-elevation 12"},
+        {"--samples", "--samples 4"},
+        {"--reveal", "--reveal 2"},
+        {"--foreground", "--foreground {in}/none.png"},
+        {"--impact", "--impact {out}/impact.csv"},
+        {"--film", "--film {out}/film.mp4"},
+        {"--frames", "--frames {town}/images"},
+        {"--poses", "--poses {in}/none.csv"},
+        {"--sensors", "--sensors {in}/none.csv"},
+        {"--stability", "--stability {out}/stability.csv"},
+        {"--set", "--set sensors.held=portrait"},
         {"--out", "--out {out}/other.png"}}},
+      {"calibrate",
+       {{"frames", "--=calibrate {town}/images"},
+        {"--board", "--board 6x5"},
+        {"--lens", "--lens pinhole"},
+        {"--views", "--views 5"},
+        {"--every", "--every 2"},
+        {"--out", "--out {out}/other.json"}}},
       {"synth",
        {{"--out", "--out {out}/other"},
         {"--seed", "--seed 2"},
@@ -243,9 +267,39 @@ class Options : public ::testing::Test {
           R"({"search": {"heading_deg": 7, "map": {"heading_step_deg": 2}},
               "confidence": {"floor_m": 0.7}})");
     Write("poses.csv", "query,e,n,h,qw,qx,qy,qz\nstreet_000,1,2,3,1,0,0,0\n");
+    WriteBoards();
     Write("box.obj",
           "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 0 0 9\nv 4 0 9\nv 4 4 9\nv 0 4 9\n"
           "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+  }
+
+  // Eight views of a checkerboard of 5 x 4 inner corners.
+  void WriteBoards() const {
+    constexpr int kSquarePx = 30;
+    cv::Mat board(7 * kSquarePx, 8 * kSquarePx, CV_8U, cv::Scalar(240));
+    for (int row = 0; row < 5; ++row) {
+      for (int column = 0; column < 6; ++column) {
+        if ((row + column) % 2 == 1) continue;
+        board(cv::Rect((column + 1) * kSquarePx, (row + 1) * kSquarePx, kSquarePx, kSquarePx)) = 20;
+      }
+    }
+    fs::create_directories(in_ / "boards");
+    const float w = static_cast<float>(board.cols), h = static_cast<float>(board.rows);
+    const std::vector<cv::Point2f> flat = {{0, 0}, {w, 0}, {w, h}, {0, h}};
+    for (int i = 0; i < 8; ++i) {
+      const float a = 12.0f * static_cast<float>(i % 4), b = 9.0f * static_cast<float>(i / 2);
+      const std::vector<cv::Point2f> seen = {
+          {20 + a, 30 + b}, {280 - b, 20 + a}, {290 - a, 220 - 0.5f * b}, {15 + b, 215 - a}};
+      cv::Mat picture;
+      cv::warpPerspective(board,
+                          picture,
+                          cv::getPerspectiveTransform(flat, seen),
+                          cv::Size(320, 240),
+                          cv::INTER_AREA,
+                          cv::BORDER_CONSTANT,
+                          cv::Scalar(200));
+      cv::imwrite((in_ / "boards" / (std::to_string(i) + ".png")).string(), picture);
+    }
   }
 
   void Write(const std::string& name, const std::string& text) const {

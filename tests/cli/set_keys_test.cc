@@ -55,6 +55,8 @@ const std::map<std::string, std::vector<std::string>>& Companions() {
       {"", {kFewModes}},
       {"lines.canny_", {kFewModes, "lines.detector=hough"}},
       {"score.line_energy.", scored("line_energy")},
+      {"score.areas.", scored("areas")},
+      {"score.rays.", scored("line_energy_rays")},
       {"score.oriented_chamfer.", scored("oriented_chamfer")},
       {"score.gradient.", scored("gradient")},
       {"score.unexplained.", scored("unexplained")},
@@ -116,6 +118,16 @@ const std::map<std::string, std::string>& Values() {
       {"score.evidence.lines.seen_share", "[0.3,0.3,0.3,0.3,0.3]"},
       {"score.evidence.facades.max_lines", "3"},
       {"score.zbuffer_hough.radius_m", "30"},
+      {"score.areas.source", "file"},
+      {"score.areas.parts", "roof_wall"},
+      {"score.areas.file", "none.png"},
+      {"score.areas.building", "[1]"},
+      {"score.areas.roof", "[2]"},
+      {"score.areas.wall", "[3]"},
+      {"score.areas.sky", "[4]"},
+      {"score.areas.ground", "[5]"},
+      {"score.areas.unknown", "[6]"},
+      {"score.rays.max_distance_m", "20"},
       {"score.skyline.work_width_px", "200"},
       {"score.skyline.sky.work_width_px", "100"},
       {"score.skyline.sky.rounds", "0"},
@@ -164,10 +176,10 @@ const std::map<std::string, std::string>& Values() {
       {"confidence.doubtful_below", "1"},
       {"confidence.alert_limit_m", "0.001"},
       // A gross error is out of the question then, and there is a protection level.
-      {"confidence.gross.offset", "-50"},
-      {"confidence.gross.mass", "-50"},
-      {"confidence.gross.explained", "-80"},
-      {"confidence.gross.observed", "-30"}};
+      {"confidence.near.offset", "50"},
+      {"confidence.near.explained", "80"},
+      {"confidence.near.above_background", "30"},
+      {"confidence.near.mass_power", "0"}};
   return values;
 }
 

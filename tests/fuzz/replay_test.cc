@@ -29,7 +29,8 @@ using Bytes = std::vector<std::uint8_t>;
 
 std::vector<fs::path> CorpusOf(const FuzzTarget& target) {
   std::vector<fs::path> files;
-  const fs::path folder = fs::path(kSourceFolder) / "tests" / "fuzz" / "corpus" / target.name;
+  const fs::path folder =
+      fs::path(kSourceFolder) / "tests" / "fuzz" / "corpus" / target.name;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     files.push_back(entry.path());
   }
@@ -90,8 +91,8 @@ std::vector<std::string_view> Names() {
   return names;
 }
 
-INSTANTIATE_TEST_SUITE_P(Fuzz, Replay, ::testing::ValuesIn(Names()), [](const auto& named) {
-  return std::string(named.param);
+INSTANTIATE_TEST_SUITE_P(Fuzz, Replay, ::testing::ValuesIn(Names()), [](const auto& param_info) {
+  return std::string(param_info.param);
 });
 
 }  // namespace

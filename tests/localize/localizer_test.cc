@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "city/raise_roofs.h"
 #include "eval/metrics.h"
 #include "eval/pose_json.h"
+#include "optim/sampler_table.h"
+#include "score/score_table.h"
 #include "support/synthetic_city.h"
 
 namespace ridgeline {
@@ -190,6 +193,28 @@ TEST_F(LocalizerOnAStreet, ABoxWithoutTheTruthIsMadeLarger) {
   EXPECT_THAT(found.notes, ::testing::ElementsAre(::testing::StartsWith("searched further: ")));
 }
 
+TEST_F(LocalizerOnAStreet, ARoofThatIsTooLowInTheModelIsRaisedAndNamed) {
+  // House 2, on the left.
+  const CityModel wrong = WithShiftedRoofs(model_, std::vector<RoofShift>{{2, -1.5}});
+  const Localization found = Localizer(wrong, std::nullopt, Options()).Localize(input_, 1, 0);
+  ASSERT_TRUE(found.pose.has_value()) << found.reason;
+  EXPECT_LT(ErrorOf(*found.pose, truth_).translation_m, 0.5);
+  EXPECT_THAT(found.doubts,
+              ::testing::Contains(::testing::MatchesRegex(
+                  ".*" + model_.buildings[2].id + ": its roof is taken \\+1\\.[2-8] m .*")));
+  const Localization right = localizer_.Localize(input_, 1, 0);
+  EXPECT_THAT(right.doubts, ::testing::Not(::testing::Contains(::testing::HasSubstr("roof"))));
+}
+
+TEST_F(LocalizerOnAStreet, AFocalLengthInDoubtIsFoundWithThePose) {
+  input_.camera.params[0] = input_.camera.params[1] = 640.0;
+  input_.focal_lengths = {{640.0, 2.0, "with the zoom"}, {500.0, 2.0, "without"}};
+  const Localization found = localizer_.Localize(input_, 1, 0);
+  ASSERT_TRUE(found.pose.has_value()) << found.reason;
+  EXPECT_NEAR(*found.focal_px, 500.0, 11.0);
+  EXPECT_LT(ErrorOf(*found.pose, truth_).translation_m, 0.5);
+}
+
 TEST_F(LocalizerOnAStreet, GreyDeepAndTransparentPicturesAreRead) {
   cv::Mat deep;
   input_.picture.convertTo(deep, CV_16U, 257.0);
@@ -214,22 +239,23 @@ TEST_F(LocalizerOnAStreet, BadInputIsNamed) {
 }
 
 TEST_F(LocalizerOnAStreet, EverySamplerAndScoreRuns) {
-  for (const char* score : {"line_energy",
-                            "skyline_l1",
-                            "line_energy_zbuffer",
-                            "oriented_chamfer",
-                            "gradient",
-                            "unexplained"}) {
+  // Each score by TPE, and each sampler (gp: Gaussian process with expected improvement) on a score.
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (const std::string& score : ScoreNames()) pairs.emplace_back(score, "tpe");
+  for (const std::string& sampler : SamplerNames()) pairs.emplace_back("gradient", sampler);
+  for (const auto& [score, sampler] : pairs) {
     LocalizerOptions options = Options();
     options.score.name = score;
     options.search.method = "sampler";
+    options.search.sampler.name = sampler;
     options.search.evaluations = 20;
     options.search.refine = false;
+    options.search.widenings = 0;
     options.confidence.abstain_below = 0.0;
     const Localizer localizer(model_, std::nullopt, options);
     const Localization found = localizer.Localize(input_, 1, 0);
-    EXPECT_TRUE(found.pose.has_value()) << score << ": " << found.reason;
-    EXPECT_EQ(found.evaluations, 20u);
+    EXPECT_TRUE(found.pose.has_value()) << score << " by " << sampler << ": " << found.reason;
+    EXPECT_EQ(found.evaluations, 20u) << score << " by " << sampler;
     EXPECT_GE(found.energy, 0.0);
     EXPECT_LE(found.energy, 1.0);
   }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "base/random.h"
 #include "camera/pose.h"
 #include "score/sky_score.h"
 
@@ -78,6 +79,41 @@ TEST(SkylineRows, ColumnsWithoutDirectionsAreUnknown) {
   EXPECT_TRUE(std::isnan(rows.back()));
   EXPECT_FALSE(std::isnan(rows[19]));
   EXPECT_EQ(SkyLogRatio(SkyTable(ClearSky(), {}), std::vector<float>(kColumns, NAN)), 0.0);
+}
+
+TEST(SkylineRows, PassingOverWhatIsBesideThePictureChangesNothing) {
+  const PinholeCamera camera{kColumns, kRows, 30.0, 30.0, 20.0, 30.0};
+  Random random(HashText("SkylineRows"), 0);
+  for (int trial = 0; trial < 300; ++trial) {
+    // A sector or the whole circle from anywhere on, rough.
+    const double first = random.Uniform(-7.0, 7.0);
+    const double step = random.Uniform(0.005, 0.05);
+    const double width = trial % 3 == 0 ? random.Uniform(0.2, 6.0) : 6.2831853;
+    std::vector<Eigen::Vector3f> directions;
+    for (int i = 0; i * step < width; ++i) {
+      const double azimuth = first + i * step;
+      const double elevation = random.Uniform(0.0, 0.4);
+      directions.push_back(Eigen::Vector3d(std::sin(azimuth) * std::cos(elevation),
+                                           std::cos(azimuth) * std::cos(elevation),
+                                           std::sin(elevation))
+                               .cast<float>());
+    }
+    const ViewAngles angles{random.Uniform(0.0, 360.0),
+                            random.Uniform(-40.0, 85.0),
+                            random.Uniform(-30.0, 30.0)};
+    const Eigen::Matrix3f rotation = CamFromWorld(angles).toRotationMatrix().cast<float>();
+    std::vector<float> all(kColumns);
+    std::vector<float> in_view(kColumns);
+    SkylineRows(directions, camera, rotation, all);
+    SkylineRows(directions, first, step, camera, rotation, in_view);
+    for (int c = 0; c < kColumns; ++c) {
+      if (std::isnan(all[c])) {
+        EXPECT_TRUE(std::isnan(in_view[c])) << trial << ", column " << c;
+      } else {
+        EXPECT_EQ(all[c], in_view[c]) << trial << ", column " << c;
+      }
+    }
+  }
 }
 
 }  // namespace
