@@ -11,30 +11,11 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 // Numbers and marks at which readers trip.
-constexpr std::array<std::string_view, 24> kWords = {"0",
-                                                     "-1",
-                                                     "1e300",
-                                                     "1e-300",
-                                                     "nan",
-                                                     "inf",
-                                                     "2147483648",
-                                                     "4294967296",
-                                                     "1e9",
-                                                     "99999999999999999999",
-                                                     "\"",
-                                                     "[",
-                                                     "{",
-                                                     "}",
-                                                     "]",
-                                                     "<",
-                                                     ">",
-                                                     "\xff\xff\xff\xff",
-                                                     ",",
-                                                     ";",
-                                                     "\r\n",
-                                                     "#",
-                                                     "\xef\xbb\xbf",
-                                                     "18446744073709551615"};
+constexpr std::array<std::string_view, 24> kWords = {
+    "0",     "-1",         "1e300",      "1e-300",      "nan",   "inf",  "2147483648", "4294967296",
+    "1e9",   "99999999999999999999",     "\"",          "[",     "{",    "}",          "]",
+    "<",     ">",          "\xff\xff\xff\xff",          ",",     ";",    "\r\n",       "#",
+    "\xef\xbb\xbf",        "18446744073709551615"};
 
 std::size_t Below(std::size_t end, std::mt19937_64& random) {
   return end == 0 ? 0 : static_cast<std::size_t>(random() % end);

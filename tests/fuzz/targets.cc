@@ -10,7 +10,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -125,8 +124,9 @@ void FuzzTrace(Bytes bytes) {
 
 void FuzzConfig(Bytes bytes) {
   LocalizerOptions options;
-  OptionsFromJson(
-      std::string(TextOf(bytes)), "config.json", [&](OptionVisitor& v) { options.Visit(v); });
+  OptionsFromJson(std::string(TextOf(bytes)), "config.json", [&](OptionVisitor& v) {
+    options.Visit(v);
+  });
   options.Validate();
 }
 
@@ -141,11 +141,13 @@ void FuzzPicture(const std::string& name, Bytes bytes) {
 }
 
 constexpr FuzzTarget kTargets[] = {
-    {"camera_file", [](Bytes b) { ReadCameraFile(Write("camera.txt", TextOf(b)), 640, 480); }},
+    {"camera_file",
+     [](Bytes b) { ReadCameraFile(Write("camera.txt", TextOf(b)), 640, 480); }},
     {"cityjson", [](Bytes b) { ReadModel("a.city.json", b); }},
     {"cityjsonseq", [](Bytes b) { ReadModel("a.city.jsonl", b); }},
     {"citygml", [](Bytes b) { ReadModel("a.gml", b); }},
-    {"colmap", [](Bytes b) { ConvertFolder("colmap", "cameras.txt", "images.txt", "colmap", b); }},
+    {"colmap",
+     [](Bytes b) { ConvertFolder("colmap", "cameras.txt", "images.txt", "colmap", b); }},
     {"config", FuzzConfig},
     {"dataset", [](Bytes b) { ReadDataset(Write("dataset.json", TextOf(b))); }},
     {"egeniouss",
@@ -197,9 +199,9 @@ constexpr auto kQuietTargets = Quiet(std::make_index_sequence<std::size(kTargets
 std::span<const FuzzTarget> FuzzTargets() { return kQuietTargets; }
 
 const FuzzTarget* FindFuzzTarget(std::string_view name) {
-  const auto it = std::find_if(kQuietTargets.begin(),
-                               kQuietTargets.end(),
-                               [&](const FuzzTarget& t) { return t.name == name; });
+  const auto it = std::find_if(kQuietTargets.begin(), kQuietTargets.end(), [&](const FuzzTarget& t) {
+    return t.name == name;
+  });
   return it == kQuietTargets.end() ? nullptr : &*it;
 }
 
