@@ -126,7 +126,8 @@ void Believe(const SearchedPoses& found,
   if (IsOnBorder(best.offset, space)) result.confidence *= kOnBorder;
   result.protection.reset();
   if (result.goodness.is_known() && !IsOnBorder(best.offset, space)) {
-    result.protection = ProtectionOf(result.spread, 1.0 - probability(options.near));
+    const double near = std::max(result.confidence, probability(options.near));
+    result.protection = ProtectionOf(result.spread, 1.0 - near);
   }
   const std::vector<std::string> limits = LimitsReached(best.offset, space);
   result.doubts = DoubtsOf(result.goodness, model);
