@@ -201,7 +201,7 @@ Provenance ProvenanceOf(const BenchArguments& arguments,
   provenance.inputs = HashInputs(dataset, task.queries.usable(), "dataset");
   if (!arguments.sensors.empty()) AddHashed("sensors", arguments.sensors, provenance.inputs);
   if (!arguments.world.empty()) {
-    for (InputFile& input : HashInputs(task.searched, {}, "world")) {
+    for (HashedFile& input : HashInputs(task.searched, {}, "world")) {
       provenance.inputs.push_back(std::move(input));
     }
   }

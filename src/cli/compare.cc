@@ -41,9 +41,9 @@ struct Results {
   std::optional<Provenance> provenance;
 };
 
-const InputFile* DatasetOf(const Results& results) {
+const HashedFile* DatasetOf(const Results& results) {
   if (!results.provenance) return nullptr;
-  for (const InputFile& input : results.provenance->inputs) {
+  for (const HashedFile& input : results.provenance->inputs) {
     if (input.role == "dataset") return &input;
   }
   return nullptr;
@@ -91,7 +91,7 @@ std::vector<std::string> NamesOf(const CompareArguments& arguments) {
 void CheckSameDataset(const std::vector<Results>& all) {
   const Results* first = nullptr;
   for (const Results& results : all) {
-    const InputFile* dataset = DatasetOf(results);
+    const HashedFile* dataset = DatasetOf(results);
     if (dataset == nullptr) continue;
     if (first == nullptr) first = &results;
     if (DatasetOf(*first)->sha256 == dataset->sha256) continue;
@@ -107,7 +107,7 @@ std::optional<Dataset> FindDataset(const CompareArguments& arguments,
                                    const std::vector<Results>& all) {
   if (!arguments.dataset.empty()) return ReadDataset(arguments.dataset);
   for (const Results& results : all) {
-    const InputFile* dataset = DatasetOf(results);
+    const HashedFile* dataset = DatasetOf(results);
     if (dataset == nullptr) continue;
     const fs::path place = PlaceOf(*dataset, *results.provenance);
     if (!place.empty()) return ReadDataset(place);

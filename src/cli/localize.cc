@@ -230,9 +230,9 @@ void PrintResult(const BenchRun& run, const Context& context) {
 }
 
 // Files that the result is made of, hashed.
-std::vector<InputFile> InputsOf(const LocalizeArguments& arguments, const Dataset& dataset) {
+std::vector<HashedFile> InputsOf(const LocalizeArguments& arguments, const Dataset& dataset) {
   const Query& query = dataset.queries.front();
-  std::vector<InputFile> inputs;
+  std::vector<HashedFile> inputs;
   AddHashed("image", query.image, inputs);
   for (const fs::path& model : dataset.model) AddHashed("model", model, inputs);
   if (dataset.dtm) AddHashed("dtm", *dataset.dtm, inputs);

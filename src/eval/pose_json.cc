@@ -153,7 +153,7 @@ std::string RunJson(const Localization& localization,
                     const std::string& version,
                     const std::string& options_json,
                     const std::vector<Assumption>& assumptions,
-                    const std::vector<InputFile>& inputs,
+                    const std::vector<HashedFile>& inputs,
                     const std::string& folder) {
   Json json;
   json["version"] = version;
@@ -164,7 +164,7 @@ std::string RunJson(const Localization& localization,
   json["options"] = Json::parse(options_json);
   json["folder"] = folder;
   json["inputs"] = Json::array();
-  for (const InputFile& input : inputs) {
+  for (const HashedFile& input : inputs) {
     json["inputs"].push_back(
         {{"role", input.role}, {"path", input.path}, {"sha256", input.sha256}});
   }

@@ -31,7 +31,7 @@ std::string RunJson(const Localization& localization,
                     const std::string& version,
                     const std::string& options_json,
                     const std::vector<Assumption>& assumptions,
-                    const std::vector<InputFile>& inputs,
+                    const std::vector<HashedFile>& inputs,
                     const std::string& folder);
 
 }  // namespace ridgeline

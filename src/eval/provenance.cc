@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 // What the fingerprint is of.
 Json Essence(const Provenance& provenance) {
   Json inputs = Json::array();
-  for (const InputFile& input : provenance.inputs) inputs.push_back({input.role, input.sha256});
+  for (const HashedFile& input : provenance.inputs) inputs.push_back({input.role, input.sha256});
   return {{"version", provenance.version},
           {"command", provenance.command},
           {"task", Json::parse(provenance.task)},
@@ -75,7 +75,7 @@ std::vector<fs::path> FilesBelow(const fs::path& folder) {
 
 std::string ProvenanceJson(const Provenance& provenance) {
   Json inputs = Json::array();
-  for (const InputFile& input : provenance.inputs) {
+  for (const HashedFile& input : provenance.inputs) {
     inputs.push_back({{"role", input.role}, {"path", input.path}, {"sha256", input.sha256}});
   }
   Json json = {{"version", provenance.version},
@@ -123,8 +123,8 @@ void CheckSame(const Provenance& there, const Provenance& now, const fs::path& f
   CheckSameValue(there.version, now.version, "version", file);
   CheckSameValue(Json::parse(there.task), Json::parse(now.task), "", file);
   for (std::size_t i = 0; i < std::min(there.inputs.size(), now.inputs.size()); ++i) {
-    const InputFile& a = there.inputs[i];
-    const InputFile& b = now.inputs[i];
+    const HashedFile& a = there.inputs[i];
+    const HashedFile& b = now.inputs[i];
     if (a.role == b.role && a.sha256 == b.sha256) continue;
     FailDifferent(file,
                   "inputs[" + std::to_string(i) + "]",
@@ -137,7 +137,7 @@ void CheckSame(const Provenance& there, const Provenance& now, const fs::path& f
                 std::to_string(now.inputs.size()) + " files");
 }
 
-void AddHashed(const std::string& role, const fs::path& path, std::vector<InputFile>& inputs) {
+void AddHashed(const std::string& role, const fs::path& path, std::vector<HashedFile>& inputs) {
   std::error_code error;
   if (fs::is_directory(path, error)) {
     for (const fs::path& file : FilesBelow(path)) AddHashed(role, file, inputs);
@@ -147,10 +147,10 @@ void AddHashed(const std::string& role, const fs::path& path, std::vector<InputF
   inputs.push_back({role, path.string(), is_file ? Sha256OfFile(path) : ""});
 }
 
-std::vector<InputFile> HashInputs(const Dataset& dataset,
+std::vector<HashedFile> HashInputs(const Dataset& dataset,
                                   const std::vector<std::size_t>& queries,
                                   const std::string& role) {
-  std::vector<InputFile> inputs;
+  std::vector<HashedFile> inputs;
   const std::string prefix = role == "dataset" ? "" : role + " ";
   AddHashed(role, dataset.file, inputs);
   for (const fs::path& model : dataset.model) AddHashed(prefix + "model", model, inputs);
@@ -164,7 +164,7 @@ std::vector<InputFile> HashInputs(const Dataset& dataset,
   return inputs;
 }
 
-fs::path PlaceOf(const InputFile& input, const Provenance& provenance) {
+fs::path PlaceOf(const HashedFile& input, const Provenance& provenance) {
   std::error_code error;
   for (const fs::path& place : {fs::path(provenance.folder) / input.path, fs::path(input.path)}) {
     if (fs::is_regular_file(place, error)) return place;

@@ -12,7 +12,7 @@
 namespace ridgeline {
 
 // A file that results were made of.
-struct InputFile {
+struct HashedFile {
   std::string role;    // "dataset", "image", "lines", "model", "dtm", "world", "poses", ...
   std::string path;    // as it was named; relative to Provenance::folder
   std::string sha256;  // empty: no file of this machine (an address on a server)
@@ -26,7 +26,7 @@ struct Provenance {
   std::string folder;     // that paths are relative to
   std::string arguments;  // JSON object: as given on the command line
   std::string task;       // JSON object: all that the results depend on besides the inputs
-  std::vector<InputFile> inputs;
+  std::vector<HashedFile> inputs;
   std::optional<Shard> shard;  // absent: the whole
 };
 
@@ -48,16 +48,16 @@ void CheckSame(const Provenance& there, const Provenance& now, const std::filesy
 // stands for all files in it, by name.
 // @param role  Of the dataset's own file; its model's and terrain's begin with it where it is not
 //              "dataset".
-std::vector<InputFile> HashInputs(const Dataset& dataset,
+std::vector<HashedFile> HashInputs(const Dataset& dataset,
                                   const std::vector<std::size_t>& queries,
                                   const std::string& role);
 
 // Of one file or folder.
 void AddHashed(const std::string& role,
                const std::filesystem::path& path,
-               std::vector<InputFile>& inputs);
+               std::vector<HashedFile>& inputs);
 
 // Where a file of the inputs is: by the folder of the provenance, or else from here. Empty: nowhere.
-std::filesystem::path PlaceOf(const InputFile& input, const Provenance& provenance);
+std::filesystem::path PlaceOf(const HashedFile& input, const Provenance& provenance);
 
 }  // namespace ridgeline

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-Check CheckInput(const InputFile& input, const Provenance& provenance) {
+Check CheckInput(const HashedFile& input, const Provenance& provenance) {
   Check check{input.role + " " + input.path, true, ""};
   if (input.sha256.empty()) return check;
   const fs::path place = PlaceOf(input, provenance);
@@ -60,7 +60,7 @@ Check CheckText(const fs::path& file, const std::string& wanted) {
 
 std::vector<Check> CheckInputs(const Provenance& provenance) {
   std::vector<Check> checks;
-  for (const InputFile& input : provenance.inputs) checks.push_back(CheckInput(input, provenance));
+  for (const HashedFile& input : provenance.inputs) checks.push_back(CheckInput(input, provenance));
   return checks;
 }
 
