@@ -17,8 +17,8 @@
 #include "eval/bench.h"
 #include "eval/bench_files.h"
 #include "eval/bench_queries.h"
+#include "eval/bench_task.h"
 #include "eval/protocol.h"
-#include "input/picture_input.h"
 #include "input/world.h"
 
 namespace ridgeline {
@@ -152,25 +152,18 @@ std::vector<RunRecord> ScorePoses(const Dataset& dataset, const fs::path& path) 
 }
 
 // What was made of pictures.
-void NoteAssumptions(const Dataset& dataset, const Context& context) {
-  for (const Query& query : dataset.queries) {
+void NoteAssumptions(const BenchTask& task, const Context& context) {
+  const bool are_pictures = task.queries.protocol().place == PriorPlace::kPicture;
+  if (task.asked == 0 && !are_pictures) return;
+  if (task.asked > 0) {
+    context.Note(std::to_string(task.asked) +
+                 " queries take their camera or prior from EXIF and XMP:");
+  }
+  for (const Query& query : task.queries.dataset().queries) {
     for (const Assumption& assumption : query.assumptions) {
       context.Note("  " + query.id + ": " + TextOf(assumption));
     }
   }
-}
-
-// Cameras and priors that queries leave to their pictures.
-void CompleteDataset(Dataset& dataset,
-                     bool priors,
-                     const LocalizerOptions& options,
-                     const Context& context) {
-  PictureInputOptions picture_options;
-  picture_options.camera_height_m = options.search.space.camera_height_m;
-  const std::size_t asked = CompleteFromPictures(dataset, priors, picture_options);
-  if (asked == 0) return;
-  context.Note(std::to_string(asked) + " queries take their camera or prior from EXIF and XMP:");
-  NoteAssumptions(dataset, context);
 }
 
 // With --out the report goes there, unless another place is named or none is wanted.
@@ -216,48 +209,6 @@ void CheckScoreOnly(const BenchArguments& arguments) {
   }
 }
 
-// Absent: the dataset's own priors.
-std::optional<Protocol> ProtocolOf(const BenchArguments& arguments) {
-  std::optional<Protocol> protocol;
-  if (!arguments.perturb.empty()) protocol = PerturbedProtocol(arguments.perturb);
-  if (!arguments.protocol.empty()) protocol = FindProtocol(arguments.protocol);
-  const bool elsewhere = protocol && protocol->place == PriorPlace::kOtherWorld;
-  if (elsewhere && arguments.world.empty()) {
-    throw InputError("--world", "", "nothing", "the dataset.json of the place that is searched");
-  }
-  if (!elsewhere && !arguments.world.empty()) {
-    throw InputError("--world", "", arguments.world, "--protocol elsewhere with it");
-  }
-  return protocol;
-}
-
-// The queries as the search gets them, and the dataset whose model is searched.
-struct BenchTask {
-  BenchQueries queries;
-  Dataset searched;
-};
-
-BenchTask TaskOf(const BenchArguments& arguments,
-                 const LocalizerOptions& options,
-                 const Context& context) {
-  Dataset dataset = ReadDataset(arguments.dataset);
-  const std::optional<Protocol> protocol = ProtocolOf(arguments);
-  const PriorPlace place = protocol ? protocol->place : PriorPlace::kDataset;
-  if (place != PriorPlace::kPicture) {
-    CompleteDataset(dataset, place == PriorPlace::kDataset, options, context);
-  }
-  if (!protocol) return {BenchQueries(dataset), dataset};
-  if (place != PriorPlace::kOtherWorld) {
-    BenchQueries queries(*protocol, std::move(dataset), options.search.space);
-    if (place == PriorPlace::kPicture) NoteAssumptions(queries.dataset(), context);
-    return {queries, queries.dataset()};
-  }
-  const Dataset other = ReadDataset(arguments.world);
-  dataset.name += " in " + other.name;
-  return {BenchQueries(*protocol, std::move(dataset), options.search.space, PlacesOf(other)),
-          other};
-}
-
 int RunScoreOnly(const BenchArguments& arguments, const Context& context) {
   const Dataset dataset = ReadDataset(arguments.dataset);
   Protocol protocol;
@@ -286,14 +237,12 @@ int RunBenchCommand(const BenchArguments& arguments, const Context& context) {
   const RunOutputs outputs = OutputsOf(arguments);
   CheckRunOutputs(outputs, true);
   if (!arguments.score_only.empty()) return RunScoreOnly(arguments, context);
-  const BenchTask task = TaskOf(arguments, options, context);
+  const BenchTask task = ReadBenchTask(
+      {arguments.dataset, arguments.protocol, arguments.world, arguments.perturb}, options);
+  NoteAssumptions(task, context);
   const Dataset& dataset = task.queries.dataset();
   const Protocol& protocol = task.queries.protocol();
-  // Places are those of truths and priors; a box beside the truth reaches further.
-  const double margin_m = protocol.place == PriorPlace::kBesideTruth ? 100.0 : 50.0;
-  WorldRequest request = RequestFor(task.searched, margin_m);
-  request.needs_terrain = request.needs_terrain || task.queries.NeedsTerrain();
-  World world = ReadWorld(request);
+  const World world = ReadWorldOf(task);
   for (const std::string& warning : world.warnings) context.Warn(warning);
   const Localizer localizer(world.model, world.dtm, options);
   std::vector<RunRecord> records;

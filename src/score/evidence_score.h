@@ -28,6 +28,10 @@ class EvidenceScore final : public Score {
   double LogRatio(const PositionView& view,
                   const Pose& cam_from_local,
                   Score::Workspace& workspace) const override;
+  void LogRatios(const PositionView& view,
+                 std::span<const Pose> poses,
+                 Score::Workspace& workspace,
+                 std::span<double> log_ratios) const override;
   std::vector<BuildingFit> BuildingFits(const PositionView& view,
                                         const Pose& cam_from_local,
                                         Score::Workspace& workspace) const override;
@@ -39,6 +43,11 @@ class EvidenceScore final : public Score {
   std::span<const float> Cues(const PositionView& view,
                               const Pose& cam_from_local,
                               Score::Workspace& workspace) const;
+  // The same for many orientations at the place of one view: a row of values for each.
+  void CuesOfMany(const PositionView& view,
+                  std::span<const Pose> poses,
+                  Score::Workspace& workspace,
+                  std::span<float> rows) const;
 
  private:
   struct Part {
@@ -50,6 +59,11 @@ class EvidenceScore final : public Score {
 
   EvidenceScore(const PictureEvidence& picture, const Scene& scene)
       : picture_(picture), scene_(scene) {}
+  double LogRatioOfOne(const PositionView& view,
+                       const Pose& cam_from_local,
+                       Memory& memory) const;
+  // Asks the cues that take many poses at once.
+  void AskForMany(const PositionView& view, std::span<const Pose> poses, Memory& memory) const;
   void ReadPose(const Pose& cam_from_local, const PositionView& view, Memory& memory) const;
 
   const PictureEvidence& picture_;
