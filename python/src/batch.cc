@@ -4,7 +4,7 @@
 #include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
 
-#include <cstring>
+#include <cmath>
 
 #include "arrays.h"
 #include "base/error.h"
@@ -51,19 +51,30 @@ Eigen::Vector3d Center(const Batch& batch) {
   return Open(batch).poses.front().center_in_world + batch.scene->model().origin_in_world;
 }
 
-// The visible edges in the picture of every pose, one below the other.
-py::tuple Segments(const Batch& batch) {
-  std::vector<float> rows;
-  std::vector<std::int32_t> pose_of;
-  std::vector<std::uint8_t> kinds;
+void Project(const Batch& batch,
+             std::vector<float>& rows,
+             std::vector<std::int32_t>& pose_of,
+             std::vector<std::uint8_t>& kinds) {
   std::vector<ProjectedSegment> segments;
-  for (std::size_t i = 0; i < Open(batch).poses.size(); ++i) {
+  for (std::size_t i = 0; i < batch.poses.size(); ++i) {
     ProjectPieces(batch.view->visible, batch.picture->camera(), batch.poses[i], segments);
     for (const ProjectedSegment& s : segments) {
       rows.insert(rows.end(), {s.a.x(), s.a.y(), s.b.x(), s.b.y()});
       pose_of.push_back(static_cast<std::int32_t>(i));
       kinds.push_back(static_cast<std::uint8_t>(batch.view->kinds[s.piece]));
     }
+  }
+}
+
+// The visible edges in the picture of every pose, one below the other.
+py::tuple Segments(const Batch& batch) {
+  std::vector<float> rows;
+  std::vector<std::int32_t> pose_of;
+  std::vector<std::uint8_t> kinds;
+  {
+    const Batch& open = Open(batch);
+    const py::gil_scoped_release unlocked;
+    Project(open, rows, pose_of, kinds);
   }
   const auto count = static_cast<py::ssize_t>(pose_of.size());
   return py::make_tuple(ArrayOf(std::move(rows), {count, 4}),

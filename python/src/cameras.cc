@@ -4,6 +4,8 @@
 
 #include <pybind11/stl.h>
 
+#include <cmath>
+
 #include "arrays.h"
 #include "base/error.h"
 #include "bindings.h"

@@ -5,6 +5,8 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <cstdio>
+
 #include "arrays.h"
 #include "base/error.h"
 #include "bindings.h"

@@ -75,7 +75,9 @@ Edges SeenEdges(const Scene& scene, const PinholeCamera& camera, const Pose& pos
     }
     edges.depth.push_back(segment.depth);
     edges.edge.push_back(piece.edge);
-    edges.building.push_back(model.surfaces[edge.surface0].building);
+    edges.building.push_back(edge.surface0 < model.surfaces.size()
+                                 ? model.surfaces[edge.surface0].building
+                                 : kNoSurface);
     edges.kind.push_back(static_cast<std::uint8_t>(KindOf(piece, scene)));
     edges.left.push_back(static_cast<std::uint8_t>(piece.left));
     edges.right.push_back(static_cast<std::uint8_t>(piece.right));

@@ -162,7 +162,7 @@ py::array_t<float> Cues(const OwnedScore& of, py::handle poses, int threads) {
                                     values.begin() + indices[k] * columns);
                       }
                     });
-  return cues.reshape({-1, static_cast<py::ssize_t>(columns)});
+  return columns == 1 ? py::array_t<float>(cues.reshape({-1, 1})) : cues;
 }
 
 SharedMap MapAround(const OwnedScore& of, py::handle prior, py::handle ranges, int threads) {

@@ -19,7 +19,7 @@ def test_from_photo_to_pose(localizer, query):
     metres, _, degrees = found.pose.error(query.truth)
     assert metres < 2.0 and degrees < 2.0
     assert found.covariance.shape == (6, 6)
-    np.testing.assert_array_equal(found.covariance, found.covariance.T)
+    np.testing.assert_allclose(found.covariance, found.covariance.T, atol=1e-12)
     assert (np.linalg.eigvalsh(found.covariance) > -1e-12).all()
     assert 0.0 <= found.confidence <= 1.0
     pose, energy = found.modes[0]
