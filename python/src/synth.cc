@@ -24,7 +24,7 @@ std::string Town(py::handle folder, const py::dict& set, int threads) {
   std::filesystem::create_directories(path, error);
   if (error) throw InputError("", "folder", path.string() + ": " + error.message(), "a new folder");
   const LongCall call;
-  WriteTownDataset(options, path, threads, {});
+  WriteTownDataset(options, path, threads, [](std::size_t, std::size_t) {});
   return (path / "dataset.json").string();
 }
 
