@@ -40,6 +40,18 @@ py::object ValueAt(const LocalizerOptions& options, const std::string& path) {
   return value;
 }
 
+// The keys of a dict below a path.
+void SetBelow(const std::string& prefix, const py::dict& values, const VisitOptions& visit) {
+  for (const auto& [key, value] : values) {
+    const std::string path = prefix + std::string(py::str(key));
+    if (py::isinstance<py::dict>(value)) {
+      SetBelow(path + ".", py::reinterpret_borrow<py::dict>(value), visit);
+    } else {
+      SetOption(path + "=" + JsonOf(value), visit);
+    }
+  }
+}
+
 }  // namespace
 
 std::string JsonOf(py::handle value) {
@@ -50,18 +62,7 @@ py::object FromJson(const std::string& text) {
   return py::module_::import("json").attr("loads")(text);
 }
 
-void SetAll(const py::dict& values, const VisitOptions& visit) {
-  for (const auto& [key, value] : values) {
-    const std::string path = py::str(key);
-    if (py::isinstance<py::dict>(value)) {
-      py::dict nested;
-      nested[key] = value;
-      OptionsFromJson(JsonOf(nested), "options", visit);
-    } else {
-      SetOption(path + "=" + JsonOf(value), visit);
-    }
-  }
-}
+void SetAll(const py::dict& values, const VisitOptions& visit) { SetBelow("", values, visit); }
 
 LocalizerOptions OptionsOf(py::handle value) {
   LocalizerOptions options;

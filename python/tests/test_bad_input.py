@@ -83,6 +83,19 @@ def test_options_name_the_nearest_key():
     assert options["search.east_m"] == 10.0  # all or none
 
 
+def test_options_by_path_nested_or_both():
+    for values in (
+        {"score.weights.sky": 3.0},
+        {"score": {"weights": {"sky": 3.0}}},
+        {"score.weights": {"sky": 3.0}},
+    ):
+        options = ridgeline.Options(values)
+        assert options["score.weights.sky"] == 3.0
+        assert options["score.weights.facades"] == ridgeline.Options()["score.weights.facades"]
+    with pytest.raises(ridgeline.InputError, match="skye"):
+        ridgeline.Options({"score.weights": {"skye": 3.0}})
+
+
 def test_the_words_are_the_programs(program, dataset_path):
     bad = "search.eats_m=20"
     said = program("localize", "--dataset", dataset_path, "--query", "street_000", "--set", bad,
