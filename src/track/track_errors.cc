@@ -30,12 +30,12 @@ TrackErrors ErrorsOf(std::span<const std::optional<Pose>> poses,
   TrackErrors errors;
   std::vector<double> metres, degrees, step_metres, step_degrees;
   const auto share = [&](double& sum, bool counts) { sum += counts ? 1.0 : 0.0; };
-  std::optional<std::size_t> before;
+  std::size_t before = poses.size();  // none
   for (std::size_t i = 0; i < truths.size(); ++i) {
     if (!truths[i]) continue;
     ++errors.frames;
     if (!poses[i]) {
-      before.reset();
+      before = poses.size();
       continue;
     }
     ++errors.posed;
@@ -48,9 +48,9 @@ TrackErrors ErrorsOf(std::span<const std::optional<Pose>> poses,
     share(errors.within_5m, m <= 5.0);
     share(errors.within_1m_1deg, m <= 1.0 && deg <= 1.0);
     share(errors.within_5deg, deg <= 5.0);
-    if (before) {
-      const Motion found = MotionBetween(*poses[*before], *poses[i]);
-      const Motion truth = MotionBetween(*truths[*before], *truths[i]);
+    if (before < poses.size()) {
+      const Motion found = MotionBetween(*poses[before], *poses[i]);
+      const Motion truth = MotionBetween(*truths[before], *truths[i]);
       step_metres.push_back((found.step_in_before - truth.step_in_before).norm());
       step_degrees.push_back(RotationDistanceDeg(found.now_from_before, truth.now_from_before));
     }

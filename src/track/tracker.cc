@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <cstdio>
 #include <opencv2/imgproc.hpp>
 
@@ -336,8 +337,9 @@ void Tracker::Judge(const FrameEvidence& evidence, TrackLook look, double mass, 
   unexplained_ = explained_ < kExplained ? unexplained_ + 1 : 0;
   // What this look says of the particles being right, against what looks say on average. Looks along
   // a street share their errors: each counts by half, and within bounds.
-  const double p = std::clamp(
-      localizer_.options().confidence.right.Probability(std::min(mass, 0.999), goodness), 1e-3, 0.999);
+  const OutcomeModel& right = localizer_.options().confidence.right;
+  const double p =
+      std::clamp(right.Probability(std::min(mass, 0.999), goodness, std::nullopt), 1e-3, 0.999);
   const double says = std::clamp(0.5 * (std::log(p / (1.0 - p)) - 0.4), -1.5, 1.5);
   log_odds_ = std::clamp(kForget * log_odds_ + says, -kMostOdds, kMostOdds);
   if (look == TrackLook::kWide && mass < 0.5) log_odds_ = std::min(log_odds_, 0.0);
