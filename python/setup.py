@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Packs the package that CMake built: RIDGELINE_BUILT_PACKAGE names its folder (scripts/wheel.sh)."""
+"""Packs the package that CMake built, which scripts/wheel.sh lays beside this file."""
 
-import os
 import re
 from pathlib import Path
 
 from setuptools import Distribution, setup
 
-BUILT = os.environ.get("RIDGELINE_BUILT_PACKAGE")
-if not BUILT:
+BUILT = Path(__file__).resolve().parent / "ridgeline"
+if not (BUILT / "VERSION").exists():
     raise SystemExit(
         "The module is built by CMake with the rest of ridgeline: run scripts/wheel.sh"
     )
@@ -22,14 +21,13 @@ class WithModule(Distribution):
 
 
 def version():
-    text = (Path(BUILT) / "VERSION").read_text()
+    text = (BUILT / "VERSION").read_text()
     return re.fullmatch(r"\d+\.\d+\.\d+", text.strip()).group()
 
 
 setup(
     version=version(),
     packages=["ridgeline"],
-    package_dir={"ridgeline": BUILT},
     package_data={"ridgeline": ["*.so", "*.pyi", "py.typed", "VERSION", "configs/*.json"]},
     distclass=WithModule,
 )

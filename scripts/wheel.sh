@@ -18,7 +18,8 @@ mkdir -p "$out"
 rm -f "$out"/ridgeline-*.whl
 copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
-cp python/pyproject.toml python/setup.py "$copy"
-RIDGELINE_BUILT_PACKAGE="$build/python/ridgeline" "$python" -m pip wheel --quiet --no-index \
+cp -R python/pyproject.toml python/setup.py "$build/python/ridgeline" "$copy"
+rm -rf "$copy/ridgeline/__pycache__"
+"$python" -m pip wheel --quiet --no-index \
   --no-deps --no-build-isolation --wheel-dir "$out" "$copy"
 ls "$out"/ridgeline-*.whl
