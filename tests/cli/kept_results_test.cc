@@ -148,7 +148,9 @@ TEST_P(KeptResults, OtherWorkIsNotMixedIn) {
 INSTANTIATE_TEST_SUITE_P(Works,
                          KeptResults,
                          ::testing::Values(&Bench, &Study),
-                         [](const auto& info) { return info.index == 0 ? "Bench" : "Study"; });
+                         [](const auto& param_info) {
+                           return param_info.index == 0 ? "Bench" : "Study";
+                         });
 
 TEST(Keeping, NeedsAFolder) {
   for (const char* option : {"--resume", "--shard 1/2"}) {
