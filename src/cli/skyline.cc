@@ -282,8 +282,7 @@ std::string CommandOf(const SkylineArguments& arguments) {
 
 int RunSkyline(SkylineArguments& arguments, const Context& context) {
   ApplyConfig(arguments.config, [&](OptionVisitor& v) { arguments.Visit(v); });
-  arguments.track.Validate();
-  arguments.sensors.Validate();
+  CheckVisited([&](OptionVisitor& v) { arguments.Visit(v); }, "");
   if (!arguments.video.empty() && fs::path(arguments.video).extension() != ".mp4") {
     throw InputError("--video", "", '"' + arguments.video + '"', "a name ending in .mp4");
   }

@@ -5,28 +5,13 @@
 #include <cmath>
 #include <string>
 
-#include "base/error.h"
 
 namespace ridgeline {
-namespace {
-
-void RequirePositive(const char* name, double value) {
-  if (value > 0.0) return;
-  throw InputError("", std::string("confidence.") + name, std::to_string(value), "> 0");
-}
-
-void RequireShare(const char* name, double value) {
-  if (value >= 0.0 && value <= 1.0) return;
-  throw InputError("", std::string("confidence.") + name, std::to_string(value), "[0, 1]");
-}
-
-}  // namespace
-
 void OutcomeModel::Visit(OptionVisitor& v) {
-  v.Field("offset", offset);
-  v.Field("mass", mass);
-  v.Field("explained", explained);
-  v.Field("observed", observed);
+  v.Field("offset", offset, AnyNumber());
+  v.Field("mass", mass, AnyNumber());
+  v.Field("explained", explained, AnyNumber());
+  v.Field("observed", observed, AnyNumber());
 }
 
 double OutcomeModel::Probability(double posterior_mass, const Goodness& goodness) const {
@@ -41,25 +26,14 @@ double OutcomeModel::Probability(double posterior_mass, const Goodness& goodness
 }
 
 void ConfidenceOptions::Visit(OptionVisitor& v) {
-  v.Field("abstain_below", abstain_below);
-  v.Field("doubtful_below", doubtful_below);
+  v.Field("abstain_below", abstain_below, Closed(0.0, 1.0));
+  v.Field("doubtful_below", doubtful_below, Closed(0.0, 1.0));
   v.Group("right", [this](OptionVisitor& g) { right.Visit(g); });
   v.Group("gross", [this](OptionVisitor& g) { gross.Visit(g); });
-  v.Field("alert_limit_m", alert_limit_m);
-  v.Field("temperature", temperature);
-  v.Field("floor_m", floor_m);
-  v.Field("floor_deg", floor_deg);
-}
-
-void ConfidenceOptions::Validate() const {
-  RequireShare("abstain_below", abstain_below);
-  RequireShare("doubtful_below", doubtful_below);
-  if (!(alert_limit_m >= 0.0)) {
-    throw InputError("", "confidence.alert_limit_m", std::to_string(alert_limit_m), ">= 0");
-  }
-  RequirePositive("temperature", temperature);
-  RequirePositive("floor_m", floor_m);
-  RequirePositive("floor_deg", floor_deg);
+  v.Field("alert_limit_m", alert_limit_m, NotNegative());
+  v.Field("temperature", temperature, Positive());
+  v.Field("floor_m", floor_m, Positive());
+  v.Field("floor_deg", floor_deg, Positive());
 }
 
 }  // namespace ridgeline

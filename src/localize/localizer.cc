@@ -167,7 +167,7 @@ Localization Localizer::Localize(const LocalizationInput& input,
                                  const PoseSpaceOptions& ranges,
                                  std::uint64_t seed,
                                  int threads) const {
-  ranges.Validate();
+  CheckOptions(ranges, "search");
   CheckInput(input, impl_->model);
   const LocalizerOptions& options = impl_->options;
   const Scene& scene = impl_->scene;

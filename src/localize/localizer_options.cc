@@ -3,64 +3,28 @@
 
 #include <string>
 
-#include "base/error.h"
 
 namespace ridgeline {
-namespace {
-
-void RequirePositive(const char* field, double value) {
-  if (!(value > 0.0)) throw InputError("", field, std::to_string(value), "> 0");
-}
-
-}  // namespace
-
 void MapOptions::Visit(OptionVisitor& v) {
-  v.Field("spacing_m", spacing_m);
-  v.Field("heading_step_deg", heading_step_deg);
-  v.Field("max_positions", max_positions);
-  v.Field("tilts", tilts);
-  v.Field("modes", modes);
-  v.Field("mode_separation_m", mode_separation_m);
-  v.Field("mode_separation_deg", mode_separation_deg);
-}
-
-void MapOptions::Validate() const {
-  RequirePositive("search.map.spacing_m", spacing_m);
-  RequirePositive("search.map.heading_step_deg", heading_step_deg);
-  RequirePositive("search.map.max_positions", max_positions);
-  RequirePositive("search.map.tilts", tilts);
-  RequirePositive("search.map.modes", modes);
-  RequirePositive("search.map.mode_separation_m", mode_separation_m);
-  RequirePositive("search.map.mode_separation_deg", mode_separation_deg);
+  v.Field("spacing_m", spacing_m, Positive());
+  v.Field("heading_step_deg", heading_step_deg, Positive());
+  v.Field("max_positions", max_positions, Positive());
+  v.Field("tilts", tilts, Positive());
+  v.Field("modes", modes, Positive());
+  v.Field("mode_separation_m", mode_separation_m, Positive());
+  v.Field("mode_separation_deg", mode_separation_deg, Positive());
 }
 
 void SearchOptions::Visit(OptionVisitor& v) {
   space.Visit(v);
-  v.Field("method", method);
+  v.Field("method", method, OneOf{{"map", "sampler"}});
   v.Group("map", [this](OptionVisitor& g) { map.Visit(g); });
-  v.Field("evaluations", evaluations);
+  v.Field("evaluations", evaluations, Positive());
   v.Group("sampler", [this](OptionVisitor& g) { sampler.Visit(g); });
   v.Field("refine", refine);
-  v.Field("widenings", widenings);
-  v.Field("refinement", refinement);
+  v.Field("widenings", widenings, Closed(0, 4));
+  v.Field("refinement", refinement, OneOf{{"compass", "fit"}});
   v.Group("fit", [this](OptionVisitor& g) { fit.Visit(g); });
-}
-
-void SearchOptions::Validate() const {
-  if (method != "map" && method != "sampler") {
-    throw InputError("", "search.method", "\"" + method + "\"", "map or sampler");
-  }
-  RequirePositive("search.evaluations", evaluations);
-  if (refinement != "compass" && refinement != "fit") {
-    throw InputError("", "search.refinement", "\"" + refinement + "\"", "compass or fit");
-  }
-  if (widenings < 0 || widenings > 4) {
-    throw InputError("", "search.widenings", std::to_string(widenings), "[0, 4]");
-  }
-  fit.Validate();
-  space.Validate();
-  map.Validate();
-  sampler.Validate();
 }
 
 void LocalizerOptions::Visit(OptionVisitor& v) {
@@ -72,11 +36,7 @@ void LocalizerOptions::Visit(OptionVisitor& v) {
 }
 
 void LocalizerOptions::Validate() const {
-  lines.Validate();
-  projection.Validate();
-  score.Validate();
-  search.Validate();
-  confidence.Validate();
+  CheckOptions(*this);
 }
 
 }  // namespace ridgeline

@@ -17,11 +17,9 @@ struct LineEnergyOptions {
   double max_distance_width = 0.0104;
 
   void Visit(OptionVisitor& v) {
-    v.Field("max_angle_deg", max_angle_deg);
-    v.Field("max_distance_width", max_distance_width);
+    v.Field("max_angle_deg", max_angle_deg, LeftOpen(0.0, 90.0));
+    v.Field("max_distance_width", max_distance_width, Positive());
   }
-  // Throws InputError naming the field.
-  void Validate() const;
 };
 
 // Energy of Loeper et al., section 3.1.3: image segment i corresponds to model segment j if their

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <numbers>
 
-#include "base/error.h"
 #include "base/random.h"
 
 namespace ridgeline {
@@ -83,70 +82,35 @@ class Sway {
   double phases_[3] = {};
 };
 
-void Require(bool valid, const char* field, double found, const char* expected) {
-  if (!valid) throw InputError("", std::string("walk.") + field, std::to_string(found), expected);
-}
-
 }  // namespace
 
 void WalkOptions::Visit(OptionVisitor& v) {
   v.Group("town", [&](OptionVisitor& g) { town.Visit(g); });
-  v.Field("frames", frames);
-  v.Field("frames_per_second", frames_per_second);
-  v.Field("width", width);
-  v.Field("height", height);
-  v.Field("horizontal_fov_deg", horizontal_fov_deg);
-  v.Field("jpeg_quality", jpeg_quality);
-  v.Field("speed_m_s", speed_m_s);
-  v.Field("pitch_deg", pitch_deg);
-  v.Field("overhang_m", overhang_m);
-  v.Field("survey_sigma_m", survey_sigma_m);
-  v.Field("compass_error_deg", compass_error_deg);
-  v.Field("compass_noise_deg", compass_noise_deg);
-  v.Field("declination_deg", declination_deg);
-  v.Field("gnss_error_low_m", gnss_error_low_m);
-  v.Field("gnss_error_high_m", gnss_error_high_m);
-  v.Field("altitude_noise_m", altitude_noise_m);
-  v.Field("altitude_jump_m", altitude_jump_m);
-  v.Field("tilt_sigma_deg", tilt_sigma_deg);
-  v.Field("acceleration_noise", acceleration_noise);
-  v.Field("pressure_noise_hpa", pressure_noise_hpa);
-}
-
-void WalkOptions::Validate() const {
-  town.Validate();
-  Require(town.blocks_east <= 6 && town.blocks_north <= 6,
-          "town.blocks_east",
-          std::max(town.blocks_east, town.blocks_north),
-          "at most 6 blocks each way");
-  Require(frames >= 1 && frames <= 100000, "frames", frames, "1 to 100000");
-  Require(frames_per_second > 0.0, "frames_per_second", frames_per_second, "more than 0");
-  Require(width >= 64 && width <= 10000, "width", width, "64 to 10000 px");
-  Require(height >= 64 && height <= 10000, "height", height, "64 to 10000 px");
-  Require(horizontal_fov_deg >= 20.0 && horizontal_fov_deg <= 120.0,
-          "horizontal_fov_deg",
-          horizontal_fov_deg,
-          "20 to 120");
-  Require(jpeg_quality >= 1 && jpeg_quality <= 100, "jpeg_quality", jpeg_quality, "1 to 100");
-  Require(speed_m_s >= 0.0, "speed_m_s", speed_m_s, "at least 0");
-  Require(std::abs(pitch_deg) <= 45.0, "pitch_deg", pitch_deg, "-45 to 45");
-  Require(std::abs(declination_deg) <= 180.0, "declination_deg", declination_deg, "-180 to 180");
-  Require(gnss_error_high_m >= gnss_error_low_m,
-          "gnss_error_high_m",
-          gnss_error_high_m,
-          "at least gnss_error_low_m");
-  const std::pair<const char*, double> not_negative[] = {
-      {"overhang_m", overhang_m},
-      {"survey_sigma_m", survey_sigma_m},
-      {"compass_error_deg", compass_error_deg},
-      {"compass_noise_deg", compass_noise_deg},
-      {"gnss_error_low_m", gnss_error_low_m},
-      {"altitude_noise_m", altitude_noise_m},
-      {"altitude_jump_m", altitude_jump_m},
-      {"tilt_sigma_deg", tilt_sigma_deg},
-      {"acceleration_noise", acceleration_noise},
-      {"pressure_noise_hpa", pressure_noise_hpa}};
-  for (const auto& [name, value] : not_negative) Require(value >= 0.0, name, value, "at least 0");
+  const int most_blocks = std::max(town.blocks_east, town.blocks_north);
+  v.Rule("town.blocks_east",
+         most_blocks <= 6,
+         std::to_string(most_blocks),
+         "at most 6 blocks each way");
+  v.Field("frames", frames, Closed(1, 100000));
+  v.Field("frames_per_second", frames_per_second, Positive());
+  v.Field("width", width, Closed(64, 10000));
+  v.Field("height", height, Closed(64, 10000));
+  v.Field("horizontal_fov_deg", horizontal_fov_deg, Closed(20.0, 120.0));
+  v.Field("jpeg_quality", jpeg_quality, Closed(1, 100));
+  v.Field("speed_m_s", speed_m_s, NotNegative());
+  v.Field("pitch_deg", pitch_deg, Closed(-45.0, 45.0));
+  v.Field("overhang_m", overhang_m, NotNegative());
+  v.Field("survey_sigma_m", survey_sigma_m, NotNegative());
+  v.Field("compass_error_deg", compass_error_deg, NotNegative());
+  v.Field("compass_noise_deg", compass_noise_deg, NotNegative());
+  v.Field("declination_deg", declination_deg, Closed(-180.0, 180.0));
+  v.Field("gnss_error_low_m", gnss_error_low_m, NotNegative());
+  v.Field("gnss_error_high_m", gnss_error_high_m, AtLeast(gnss_error_low_m, "gnss_error_low_m"));
+  v.Field("altitude_noise_m", altitude_noise_m, NotNegative());
+  v.Field("altitude_jump_m", altitude_jump_m, NotNegative());
+  v.Field("tilt_sigma_deg", tilt_sigma_deg, NotNegative());
+  v.Field("acceleration_noise", acceleration_noise, NotNegative());
+  v.Field("pressure_noise_hpa", pressure_noise_hpa, NotNegative());
 }
 
 std::vector<Pose> WalkPoses(const Town& town, const WalkOptions& options) {

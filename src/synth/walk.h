@@ -45,8 +45,6 @@ struct WalkOptions {
   double pressure_noise_hpa = 0.03;
 
   void Visit(OptionVisitor& v);
-  // Throws InputError naming the field, e.g. "walk.frames".
-  void Validate() const;
 };
 
 // True poses of the frames, in the town's local frame.

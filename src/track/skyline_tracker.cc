@@ -3,7 +3,6 @@
 
 #include <chrono>
 
-#include "base/error.h"
 
 namespace ridgeline {
 namespace {
@@ -27,34 +26,18 @@ SkylineTrackOptions::SkylineTrackOptions() {
 }
 
 void SkylineTrackOptions::Visit(OptionVisitor& v) {
-  v.Field("extractor", extractor);
-  v.Field("start", start);
-  v.Field("keyframe_every", keyframe_every);
+  v.Field("extractor", extractor, OneOf{{"path", "canny"}});
+  v.Field("start", start, OneOf{{"sensors", "last"}});
+  v.Field("keyframe_every", keyframe_every, NotNegative());
   v.Group("skyline", [&](OptionVisitor& g) { skyline.Visit(g); });
   v.Group("canny", [&](OptionVisitor& g) { canny.Visit(g); });
   v.Group("l1", [&](OptionVisitor& g) { l1.Visit(g); });
   v.Group("match", [&](OptionVisitor& g) { match.Visit(g); });
 }
 
-void SkylineTrackOptions::Validate() const {
-  if (extractor != "path" && extractor != "canny") {
-    throw InputError("", "extractor", '"' + extractor + '"', "path or canny");
-  }
-  if (start != "sensors" && start != "last") {
-    throw InputError("", "start", '"' + start + '"', "sensors or last");
-  }
-  if (keyframe_every < 0) {
-    throw InputError("", "keyframe_every", std::to_string(keyframe_every), "at least 0");
-  }
-  skyline.Validate();
-  canny.Validate();
-  l1.Validate();
-  match.Validate();
-}
-
 SkylineTracker::SkylineTracker(const Scene& scene, const SkylineTrackOptions& options)
     : scene_(scene), options_(options) {
-  options_.Validate();
+  CheckOptions(options_);
 }
 
 Pose SkylineTracker::Apply(const Correction& correction, const Pose& sensors) {
