@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
-
 namespace ridgeline {
+
 void OutcomeModel::Visit(OptionVisitor& v) {
   v.Field("offset", offset, AnyNumber());
   v.Field("mass", mass, AnyNumber());

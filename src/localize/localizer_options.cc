@@ -3,8 +3,8 @@
 
 #include <string>
 
-
 namespace ridgeline {
+
 void MapOptions::Visit(OptionVisitor& v) {
   v.Field("spacing_m", spacing_m, Positive());
   v.Field("heading_step_deg", heading_step_deg, Positive());
@@ -35,8 +35,6 @@ void LocalizerOptions::Visit(OptionVisitor& v) {
   v.Group("confidence", [this](OptionVisitor& g) { confidence.Visit(g); });
 }
 
-void LocalizerOptions::Validate() const {
-  CheckOptions(*this);
-}
+void LocalizerOptions::Validate() const { CheckOptions(*this); }
 
 }  // namespace ridgeline

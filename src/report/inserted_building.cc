@@ -4,12 +4,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "base/angle.h"
 
 namespace ridgeline {
 namespace {
 
-constexpr double kRad = std::numbers::pi / 180.0;
 // Rays per pixel in each direction.
 constexpr int kSamples = 2;
 
@@ -26,10 +26,10 @@ cv::Vec3f ColorOf(SurfaceClass surface) {
 }
 
 cv::Vec3f Towards(double azimuth_deg, double elevation_deg) {
-  const double level = std::cos(elevation_deg * kRad);
-  return {static_cast<float>(level * std::sin(azimuth_deg * kRad)),
-          static_cast<float>(level * std::cos(azimuth_deg * kRad)),
-          static_cast<float>(std::sin(elevation_deg * kRad))};
+  const double level = std::cos(elevation_deg * kRadPerDeg);
+  return {static_cast<float>(level * std::sin(azimuth_deg * kRadPerDeg)),
+          static_cast<float>(level * std::cos(azimuth_deg * kRadPerDeg)),
+          static_cast<float>(std::sin(elevation_deg * kRadPerDeg))};
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ CityModel PlacedModel(const CityModel& model,
   for (const Eigen::Vector3d& v : model.vertices) box.extend(v);
   const Eigen::Vector3d middle(box.center().x(), box.center().y(), box.min().z());
   const Eigen::Matrix3d turn =
-      Eigen::AngleAxisd(-heading_deg * kRad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+      Eigen::AngleAxisd(-heading_deg * kRadPerDeg, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   const auto place = [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
     return base + scale * (turn * (p - middle));
   };

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "base/angle.h"
 #include "base/error.h"
 #include "base/random.h"
 #include "city/crs.h"
@@ -15,7 +16,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kDeg = 180.0 / std::numbers::pi;
 constexpr std::uint64_t kSensorStage = 0x91;
 constexpr double kGravity = 9.81;
 // Share of frames at which the altitude jumps, and how many frames a jump lasts.
@@ -58,9 +58,9 @@ double ConvergenceDeg(const Crs& crs, const Vector2d& east_north) {
   const auto north = LatitudeLongitude(crs, east_north + Vector2d(0.0, kStepM));
   if (!here || !north) return 0.0;
   const double north_deg = north->x() - here->x();
-  const double east_deg = (north->y() - here->y()) * std::cos(here->x() / kDeg);
+  const double east_deg = (north->y() - here->y()) * std::cos(here->x() / kDegPerRad);
   // Grid north as seen from true north, turned around.
-  return -std::atan2(east_deg, north_deg) * kDeg;
+  return -std::atan2(east_deg, north_deg) * kDegPerRad;
 }
 
 }  // namespace

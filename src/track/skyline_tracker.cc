@@ -3,7 +3,6 @@
 
 #include <chrono>
 
-
 namespace ridgeline {
 namespace {
 
