@@ -177,6 +177,102 @@ void DrawMark(GridPicture::Mark mark, cv::Point at, cv::Mat& picture) {
   }
 }
 
+// Square cells, room for labels left and below, for the scale on the right.
+Frame FrameOf(const GridPicture& grid, const cv::Rect& area) {
+  const int width = area.width - 66 - 96;
+  const int height = area.height - 74 - 48;
+  const double cell =
+      std::min(static_cast<double>(width) / grid.columns, static_cast<double>(height) / grid.rows);
+  Frame frame;
+  frame.box = {area.x + 66, area.y + 74, cvRound(cell * grid.columns), cvRound(cell * grid.rows)};
+  const double half = 0.5 * grid.spacing_m;
+  frame.x = {grid.first_east_m - half, grid.first_east_m + (grid.columns - 0.5) * grid.spacing_m};
+  frame.y = {grid.first_north_m - half, grid.first_north_m + (grid.rows - 0.5) * grid.spacing_m};
+  return frame;
+}
+
+void DrawCells(const GridPicture& grid, const Range& range, const cv::Rect& box, cv::Mat& picture) {
+  cv::Mat shades(grid.rows, grid.columns, CV_8U);
+  cv::Mat known(grid.rows, grid.columns, CV_8U);
+  for (int r = 0; r < grid.rows; ++r) {
+    for (int c = 0; c < grid.columns; ++c) {
+      const double value = grid.values[static_cast<std::size_t>(r) * grid.columns + c];
+      const bool is_known = std::isfinite(value);
+      const double share =
+          is_known ? std::min(1.0, (value - range.lower) / (range.upper - range.lower)) : 0.0;
+      shades.at<uchar>(grid.rows - 1 - r, c) = cv::saturate_cast<uchar>(255.0 * (1.0 - share));
+      known.at<uchar>(grid.rows - 1 - r, c) = is_known ? 255 : 0;
+    }
+  }
+  cv::Mat colors;
+  cv::applyColorMap(shades, colors, cv::COLORMAP_VIRIDIS);
+  colors.setTo(cv::Scalar(205, 200, 196), ~known);
+  cv::Mat large;
+  cv::resize(colors, large, box.size(), 0.0, 0.0, cv::INTER_NEAREST);
+  large.copyTo(picture(box));
+}
+
+// Axes of a map around the prior; `left`: where the area begins [px].
+void DrawPlaceAxes(const Frame& frame, int left, cv::Mat& picture) {
+  const ChartAxis east{"east of the prior [m]", {}, {}, {}};
+  const ChartAxis north{"north of the prior [m]", {}, {}, {}};
+  for (const Tick& tick : TicksOf(east, frame.x, 6)) {
+    const cv::Point at = frame.At(tick.value, frame.y.lower);
+    cv::line(picture, at, {at.x, at.y + 4}, kDim, 1);
+    Write(picture, tick.text, {at.x, at.y + 18}, 0.5);
+  }
+  for (const Tick& tick : TicksOf(north, frame.y, 6)) {
+    const cv::Point at = frame.At(frame.x.lower, tick.value);
+    cv::line(picture, at, {at.x - 4, at.y}, kDim, 1);
+    Write(picture, tick.text, {at.x - 8, at.y + 4}, 1.0);
+  }
+  cv::rectangle(picture, frame.box, kDim, 1);
+  Write(picture, east.label, {frame.box.x + frame.box.width / 2, frame.box.br().y + 38}, 0.5);
+  WriteUp(picture, north.label, {left + 12, frame.box.y + frame.box.height / 2});
+}
+
+// The scale right of a map: the least value, which is the best, on top and bright.
+void DrawScale(const std::string& label,
+               const Range& range,
+               const cv::Rect& map,
+               cv::Mat& picture) {
+  const cv::Rect bar(map.br().x + 14, map.y, 14, map.height);
+  cv::Mat ramp(256, 1, CV_8U);
+  for (int i = 0; i < 256; ++i) ramp.at<uchar>(i) = static_cast<uchar>(255 - i);
+  cv::Mat colors;
+  cv::Mat large;
+  cv::applyColorMap(ramp, colors, cv::COLORMAP_VIRIDIS);
+  cv::resize(colors, large, bar.size(), 0.0, 0.0, cv::INTER_LINEAR);
+  large.copyTo(picture(bar));
+  cv::rectangle(picture, bar, kDim, 1);
+  const double step = NiceStep(range.upper - range.lower, 5);
+  for (double k = std::ceil(range.lower / step); k * step <= range.upper; ++k) {
+    const int y =
+        bar.y + cvRound((k * step - range.lower) / (range.upper - range.lower) * bar.height);
+    cv::line(picture, {bar.br().x, y}, {bar.br().x + 4, y}, kDim, 1);
+    Write(picture, NumberText(k * step, step), {bar.br().x + 7, y + 4});
+  }
+  Write(picture, "and worse", {bar.x - 4, bar.br().y + 18}, 0.0, kDim);
+  WriteUp(picture, label, {bar.br().x + 58, bar.y + bar.height / 2});
+}
+
+// The marks on the map, and what they are above it.
+void DrawMarks(const GridPicture& grid,
+               const Frame& frame,
+               const cv::Rect& area,
+               cv::Mat& picture) {
+  int at = area.x + 16;
+  for (const GridPicture::Mark& mark : grid.marks) {
+    DrawMark(mark, frame.At(mark.east_m, mark.north_m), picture);
+    DrawMark(mark, {at + 8, area.y + 58}, picture);
+    Write(picture, mark.name, {at + 22, area.y + 63});
+    at += 22 + TextSize(mark.name).width + 22;
+  }
+  const bool has_gaps = std::any_of(
+      grid.values.begin(), grid.values.end(), [](double value) { return !std::isfinite(value); });
+  if (has_gaps) Write(picture, "grey: not admissible", {at, area.y + 63}, 0.0, kDim);
+}
+
 }  // namespace
 
 Rgb SeriesColor(std::size_t index) {
@@ -242,84 +338,14 @@ void DrawLegend(const std::vector<LegendEntry>& entries, const cv::Rect& area, c
 }
 
 void DrawGrid(const GridPicture& grid, const cv::Rect& area, cv::Mat& picture) {
-  // Square cells, room for labels left and below, for the scale on the right.
-  const int width = area.width - 66 - 96;
-  const int height = area.height - 74 - 48;
-  const double cell =
-      std::min(static_cast<double>(width) / grid.columns, static_cast<double>(height) / grid.rows);
-  Frame frame;
-  frame.box = {area.x + 66, area.y + 74, cvRound(cell * grid.columns), cvRound(cell * grid.rows)};
-  const double half = 0.5 * grid.spacing_m;
-  frame.x = {grid.first_east_m - half, grid.first_east_m + (grid.columns - 0.5) * grid.spacing_m};
-  frame.y = {grid.first_north_m - half, grid.first_north_m + (grid.rows - 0.5) * grid.spacing_m};
-
+  const Frame frame = FrameOf(grid, area);
   const Range range = ScaleOf(grid.values);
-  cv::Mat shades(grid.rows, grid.columns, CV_8U);
-  cv::Mat known(grid.rows, grid.columns, CV_8U);
-  for (int r = 0; r < grid.rows; ++r) {
-    for (int c = 0; c < grid.columns; ++c) {
-      const double value = grid.values[static_cast<std::size_t>(r) * grid.columns + c];
-      const bool is_known = std::isfinite(value);
-      const double share =
-          is_known ? std::min(1.0, (value - range.lower) / (range.upper - range.lower)) : 0.0;
-      shades.at<uchar>(grid.rows - 1 - r, c) = cv::saturate_cast<uchar>(255.0 * (1.0 - share));
-      known.at<uchar>(grid.rows - 1 - r, c) = is_known ? 255 : 0;
-    }
-  }
-  cv::Mat colors;
-  cv::applyColorMap(shades, colors, cv::COLORMAP_VIRIDIS);
-  colors.setTo(cv::Scalar(205, 200, 196), ~known);
-  cv::Mat large;
-  cv::resize(colors, large, frame.box.size(), 0.0, 0.0, cv::INTER_NEAREST);
-  large.copyTo(picture(frame.box));
-
-  Chart axes;
-  axes.x.label = "east of the prior [m]";
-  const ChartAxis north{"north of the prior [m]", {}, {}, {}};
-  for (const Tick& tick : TicksOf(axes.x, frame.x, 6)) {
-    const cv::Point at = frame.At(tick.value, frame.y.lower);
-    cv::line(picture, at, {at.x, at.y + 4}, kDim, 1);
-    Write(picture, tick.text, {at.x, at.y + 18}, 0.5);
-  }
-  for (const Tick& tick : TicksOf(north, frame.y, 6)) {
-    const cv::Point at = frame.At(frame.x.lower, tick.value);
-    cv::line(picture, at, {at.x - 4, at.y}, kDim, 1);
-    Write(picture, tick.text, {at.x - 8, at.y + 4}, 1.0);
-  }
-  cv::rectangle(picture, frame.box, kDim, 1);
-  Write(picture, axes.x.label, {frame.box.x + frame.box.width / 2, frame.box.br().y + 38}, 0.5);
-  WriteUp(picture, north.label, {area.x + 12, frame.box.y + frame.box.height / 2});
-
-  // The scale: the least value, which is the best, on top and bright.
-  const cv::Rect bar(frame.box.br().x + 14, frame.box.y, 14, frame.box.height);
-  cv::Mat ramp(256, 1, CV_8U);
-  for (int i = 0; i < 256; ++i) ramp.at<uchar>(i) = static_cast<uchar>(255 - i);
-  cv::applyColorMap(ramp, colors, cv::COLORMAP_VIRIDIS);
-  cv::resize(colors, large, bar.size(), 0.0, 0.0, cv::INTER_LINEAR);
-  large.copyTo(picture(bar));
-  cv::rectangle(picture, bar, kDim, 1);
-  const double step = NiceStep(range.upper - range.lower, 5);
-  for (double k = std::ceil(range.lower / step); k * step <= range.upper; ++k) {
-    const int y =
-        bar.y + cvRound((k * step - range.lower) / (range.upper - range.lower) * bar.height);
-    cv::line(picture, {bar.br().x, y}, {bar.br().x + 4, y}, kDim, 1);
-    Write(picture, NumberText(k * step, step), {bar.br().x + 7, y + 4});
-  }
-  Write(picture, "and worse", {bar.x - 4, bar.br().y + 18}, 0.0, kDim);
-  WriteUp(picture, grid.value_label, {bar.br().x + 58, bar.y + bar.height / 2});
-
+  DrawCells(grid, range, frame.box, picture);
+  DrawPlaceAxes(frame, area.x, picture);
+  DrawScale(grid.value_label, range, frame.box, picture);
   Write(picture, grid.title, {area.x + 8, area.y + 20}, 0.0, kInk, 0.5);
   Write(picture, grid.note, {area.x + 8, area.y + 40}, 0.0, kDim);
-  int at = area.x + 16;
-  for (const GridPicture::Mark& mark : grid.marks) {
-    DrawMark(mark, frame.At(mark.east_m, mark.north_m), picture);
-    DrawMark(mark, {at + 8, area.y + 58}, picture);
-    Write(picture, mark.name, {at + 22, area.y + 63});
-    at += 22 + TextSize(mark.name).width + 22;
-  }
-  if (cv::countNonZero(known) < static_cast<int>(known.total())) {
-    Write(picture, "grey: not admissible", {at, area.y + 63}, 0.0, kDim);
-  }
+  DrawMarks(grid, frame, area, picture);
 }
 
 }  // namespace ridgeline
