@@ -14,7 +14,7 @@
 #include "base/error.h"
 #include "city/crs.h"
 #include "cli/command.h"
-#include "convert/formats.h"
+#include "convert/dataset_formats.h"
 
 namespace ridgeline {
 namespace {

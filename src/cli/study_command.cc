@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/study.h"
+#include "cli/study_command.h"
 
 #include <cmath>
 #include <cstdio>
@@ -164,8 +164,7 @@ int RunStudyCommand(const StudyArguments& arguments, const Context& context) {
   if (protocol.place != PriorPlace::kPicture) {
     CompleteFromPictures(with_cameras, false, PictureInputOptions{});  // priors are drawn
   }
-  const BenchQueries source(
-      protocol, std::move(with_cameras), localizer_options.search.space);
+  const BenchQueries source(protocol, std::move(with_cameras), localizer_options.search.space);
   const Dataset& dataset = source.dataset();
   const std::vector<std::size_t> queries = StudyQueries(dataset, arguments.queries);
   CheckOutputs(arguments);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/bench.h"
+#include "cli/bench_command.h"
 
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <utility>
 #include <optional>
+#include <utility>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
