@@ -14,6 +14,7 @@
 #include "cli/out_folder.h"
 #include "cli/progress.h"
 #include "cli/query_input.h"
+#include "cli/sensor_priors.h"
 #include "cli/version.h"
 #include "eval/bench.h"
 #include "eval/pose_json.h"
@@ -33,6 +34,7 @@ struct LocalizeArguments {
   QueryArguments query;
   std::string prior;
   std::string lines;
+  std::string sensors;
   std::string out;
   std::string report;
   std::optional<double> declination_deg;
@@ -62,6 +64,9 @@ Dataset ReadTask(const LocalizeArguments& arguments) {
   }
   Dataset dataset = ReadQuery(arguments.query);
   Query& query = dataset.queries.front();
+  if (!arguments.prior.empty() && !arguments.sensors.empty()) {
+    throw InputError("--prior", "", "a prior beside --sensors", "one of the two");
+  }
   if (!arguments.prior.empty()) {
     query.prior = ReadPrior(arguments.prior);
     dataset.file = arguments.prior;  // which is named where the prior leaves something open
@@ -224,6 +229,25 @@ void PrintResult(const BenchRun& run, const Context& context) {
   context.Print(line);
 }
 
+// Files that the result is made of, hashed.
+std::vector<HashedFile> InputsOf(const LocalizeArguments& arguments, const Dataset& dataset) {
+  const Query& query = dataset.queries.front();
+  std::vector<HashedFile> inputs;
+  AddHashed("image", query.image, inputs);
+  for (const fs::path& model : dataset.model) AddHashed("model", model, inputs);
+  if (dataset.dtm) AddHashed("dtm", *dataset.dtm, inputs);
+  if (query.lines) AddHashed("lines", *query.lines, inputs);
+  const std::pair<const char*, const std::string&> named[] = {
+      {"dataset", arguments.query.dataset},
+      {"camera", arguments.query.camera},
+      {"prior", arguments.prior},
+      {"sensors", arguments.sensors}};
+  for (const auto& [role, path] : named) {
+    if (!path.empty()) AddHashed(role, path, inputs);
+  }
+  return inputs;
+}
+
 // What the search found, in files.
 void WriteResults(const LocalizeArguments& arguments,
                   const Dataset& dataset,
@@ -248,7 +272,13 @@ void WriteResults(const LocalizeArguments& arguments,
     WriteFileAtomically(out / "pose.json", pose_json);
     WriteFileAtomically(
         out / "report.json",
-        RunJson(run.localization, arguments.seed, VersionText(), options_json, query.assumptions));
+        RunJson(run.localization,
+                arguments.seed,
+                VersionText(),
+                options_json,
+                query.assumptions,
+                InputsOf(arguments, dataset),
+                fs::current_path().string()));
     const cv::Mat photo = UndistortImage(BgrOf(pictures.Read(query)), *query.camera);
     WriteOverlay(
         photo, ResultOverlay(localizer, CameraOf(query, run.localization), run), {}, out / "overlay.png");
@@ -260,10 +290,14 @@ void WriteResults(const LocalizeArguments& arguments,
   if (!arguments.report.empty()) WriteHtmlReport(data, arguments.report);
 }
 
-int RunLocalize(const LocalizeArguments& arguments, const Context& context) {
+int RunLocalize(LocalizeArguments arguments, const Context& context) {
   Stages stages(context);
   stages.Begin("reading the picture");
+  const SensorOptions sensors = TakeSensorOptions(arguments.sensors, arguments.config.set);
   Dataset dataset = ReadTask(arguments);
+  if (!arguments.sensors.empty()) {
+    PriorsFromSensors(arguments.sensors, sensors, context, dataset);
+  }
   LocalizerOptions options;
   ReadOptions(arguments, options);
   const OutFolder out_folder("--out", arguments.out);
@@ -332,10 +366,10 @@ void AddLocalizeCommand(CLI::App& app, Context& context) {
       context,
       {"localize",
        "Finds the pose of one picture.",
-       "ridgeline localize photo.jpg --model city.gpkg --dtm dtm.tif\n"
-       "ridgeline localize photo.jpg --model city.gml --dtm dtm.tif --camera camera.json \\\n"
-       "    --prior prior.json --out result --report result.html\n"
-       "ridgeline localize --dataset town/dataset.json --query street_000 --out result"},
+       "ridgeline localize --dataset town/dataset.json --query street_000 \\\n"
+       "    --out result --report result.html\n"
+       "# a photo of your own with GNSS in its EXIF, or with --camera and --prior files:\n"
+       "# ridgeline localize photo.jpg --model tiles/ --dtm dtm.tif --out result"},
       [arguments](Context& c) { return RunLocalize(*arguments, c); });
   command->add_option("image", arguments->query.image, "Picture");
   AddQueryOptions(*command, arguments->query);
@@ -349,6 +383,11 @@ void AddLocalizeCommand(CLI::App& app, Context& context) {
       "Magnetic declination [deg], east positive; else by the World Magnetic Model");
   command->add_option(
       "--lines", arguments->lines, "Segments of another detector, in place of lines.detector");
+  command
+      ->add_option("--sensors",
+                   arguments->sensors,
+                   "Prior from a phone's instruments (CSV, docs/skyline.md), by the picture's name")
+      ->type_name("FILE");
   command->add_option("--out",
                       arguments->out,
                       "Folder for pose.json, report.json, overlay.png, map.geojson, energy.tif");

@@ -7,10 +7,12 @@
 
 namespace ridgeline {
 
+extern const ScorePlugin kAreaScore;
 extern const ScorePlugin kEvidenceScore;
 extern const ScorePlugin kGradientScore;
 extern const ScorePlugin kLineEnergyScore;
 extern const ScorePlugin kOrientedChamferScore;
+extern const ScorePlugin kRayLineEnergyScore;
 extern const ScorePlugin kSkylineL1Score;
 extern const ScorePlugin kUnexplainedScore;
 extern const ScorePlugin kZbufferLineEnergyScore;
@@ -22,7 +24,9 @@ std::span<const ScorePlugin* const> ScoreTable() {
                                         &kSkylineL1Score,
                                         &kGradientScore,
                                         &kOrientedChamferScore,
-                                        &kUnexplainedScore};
+                                        &kUnexplainedScore,
+                                        &kAreaScore,
+                                        &kRayLineEnergyScore};
   return kTable;
 }
 

@@ -152,7 +152,8 @@ TEST(ScoreTable, AnUnknownNameIsRefused) {
   } catch (const InputError& error) {
     EXPECT_EQ(std::string(error.what()),
               "score.name: got \"evidense\", expected one of evidence, line_energy, "
-              "line_energy_zbuffer, skyline_l1, gradient, oriented_chamfer, unexplained");
+              "line_energy_zbuffer, skyline_l1, gradient, oriented_chamfer, unexplained, areas, "
+              "line_energy_rays");
   }
 }
 
