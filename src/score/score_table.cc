@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "score/score_table.h"
 
-#include <array>
+#include <algorithm>
 
 #include "base/error.h"
 
@@ -17,17 +17,32 @@ extern const ScorePlugin kSkylineL1Score;
 extern const ScorePlugin kUnexplainedScore;
 extern const ScorePlugin kZbufferLineEnergyScore;
 
-std::span<const ScorePlugin* const> ScoreTable() {
-  static constexpr std::array kTable = {&kEvidenceScore,
-                                        &kLineEnergyScore,
-                                        &kZbufferLineEnergyScore,
-                                        &kSkylineL1Score,
-                                        &kGradientScore,
-                                        &kOrientedChamferScore,
-                                        &kUnexplainedScore,
-                                        &kAreaScore,
-                                        &kRayLineEnergyScore};
-  return kTable;
+namespace {
+
+std::vector<const ScorePlugin*>& Table() {
+  static std::vector<const ScorePlugin*> table = {&kEvidenceScore,
+                                                  &kLineEnergyScore,
+                                                  &kZbufferLineEnergyScore,
+                                                  &kSkylineL1Score,
+                                                  &kGradientScore,
+                                                  &kOrientedChamferScore,
+                                                  &kUnexplainedScore,
+                                                  &kAreaScore,
+                                                  &kRayLineEnergyScore};
+  return table;
+}
+
+}  // namespace
+
+std::span<const ScorePlugin* const> ScoreTable() { return Table(); }
+
+void AddScore(const ScorePlugin& plugin) {
+  const std::vector<std::string> taken = ScoreNames();
+  if (std::find(taken.begin(), taken.end(), plugin.name) != taken.end()) {
+    throw InputError(
+        "", "score", "\"" + std::string(plugin.name) + "\" again", "a name of its own");
+  }
+  Table().push_back(&plugin);
 }
 
 std::vector<std::string> ScoreNames() {

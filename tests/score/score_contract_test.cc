@@ -157,6 +157,12 @@ TEST(ScoreTable, AnUnknownNameIsRefused) {
   }
 }
 
+TEST(ScoreTable, ANameThatIsTakenIsRefused) {
+  const std::size_t before = ScoreTable().size();
+  EXPECT_THROW(AddScore(*ScoreTable().front()), InputError);
+  EXPECT_EQ(ScoreTable().size(), before);
+}
+
 TEST(ScoreOptions, WeightsHaveNames) {
   ScoreOptions options;
   const auto visit = [&](OptionVisitor& v) {
