@@ -14,10 +14,7 @@
 #include "cli/progress.h"
 #include "cli/sensor_priors.h"
 #include "cli/version.h"
-#include "eval/protocol.h"
 #include "eval/run_folder.h"
-#include "input/picture_input.h"
-#include "input/world.h"
 
 namespace ridgeline {
 namespace {
@@ -34,19 +31,6 @@ void NoteAssumptions(const Dataset& dataset, const Context& context) {
   }
 }
 
-// Cameras and priors that queries leave to their pictures.
-void CompleteDataset(Dataset& dataset,
-                     bool priors,
-                     const LocalizerOptions& options,
-                     const Context& context) {
-  PictureInputOptions picture_options;
-  picture_options.camera_height_m = options.search.space.camera_height_m;
-  const std::size_t asked = CompleteFromPictures(dataset, priors, picture_options);
-  if (asked == 0) return;
-  context.Note(std::to_string(asked) + " queries take their camera or prior from EXIF and XMP:");
-  NoteAssumptions(dataset, context);
-}
-
 // With --out the report goes there, unless another place is named or none is wanted; a shard's
 // would show a part only.
 RunOutputs OutputsOf(const BenchArguments& arguments) {
@@ -58,46 +42,19 @@ RunOutputs OutputsOf(const BenchArguments& arguments) {
   return outputs;
 }
 
-// Absent: the dataset's own priors.
-std::optional<Protocol> ProtocolOf(const BenchArguments& arguments) {
-  std::optional<Protocol> protocol;
-  if (!arguments.perturb.empty()) protocol = PerturbedProtocol(arguments.perturb);
-  if (!arguments.protocol.empty()) protocol = FindProtocol(arguments.protocol);
-  const bool elsewhere = protocol && protocol->place == PriorPlace::kOtherWorld;
-  if (elsewhere && arguments.world.empty()) {
-    throw InputError("--world", "", "nothing", "the dataset.json of the place that is searched");
-  }
-  if (!elsewhere && !arguments.world.empty()) {
-    throw InputError("--world", "", arguments.world, "--protocol elsewhere with it");
-  }
-  return protocol;
+// With the priors that instruments tell in place of the dataset's.
+BenchTask TaskOfSensors(const BenchArguments& arguments, const Context& context) {
+  Dataset dataset = ReadDataset(arguments.dataset);
+  std::vector<std::string> set = arguments.config.set;
+  PriorsFromSensors(arguments.sensors, TakeSensorOptions(arguments.sensors, set), context, dataset);
+  return {BenchQueries(dataset), dataset};
 }
 
-BenchTask WholeTaskOf(const BenchArguments& arguments,
-                      const LocalizerOptions& options,
-                      const Context& context) {
-  Dataset dataset = ReadDataset(arguments.dataset);
-  if (!arguments.sensors.empty()) {
-    std::vector<std::string> set = arguments.config.set;
-    PriorsFromSensors(
-        arguments.sensors, TakeSensorOptions(arguments.sensors, set), context, dataset);
-    return {BenchQueries(dataset), dataset};
+BenchTask Chosen(const BenchArguments& arguments, BenchTask task) {
+  if (!arguments.queries.empty() || !arguments.sets.empty()) {
+    task.queries.Choose(arguments.queries, arguments.sets);
   }
-  const std::optional<Protocol> protocol = ProtocolOf(arguments);
-  const PriorPlace place = protocol ? protocol->place : PriorPlace::kDataset;
-  if (place != PriorPlace::kPicture) {
-    CompleteDataset(dataset, place == PriorPlace::kDataset, options, context);
-  }
-  if (!protocol) return {BenchQueries(dataset), dataset};
-  if (place != PriorPlace::kOtherWorld) {
-    BenchQueries queries(*protocol, std::move(dataset), options.search.space);
-    if (place == PriorPlace::kPicture) NoteAssumptions(queries.dataset(), context);
-    return {queries, queries.dataset()};
-  }
-  const Dataset other = ReadDataset(arguments.world);
-  dataset.name += " in " + other.name;
-  return {BenchQueries(*protocol, std::move(dataset), options.search.space, PlacesOf(other)),
-          other};
+  return task;
 }
 
 // Instruments and protocols both say what the priors are.
@@ -146,11 +103,17 @@ LocalizerOptions OptionsOf(const BenchArguments& arguments) {
 BenchTask TaskOf(const BenchArguments& arguments,
                  const LocalizerOptions& options,
                  const Context& context) {
-  BenchTask task = WholeTaskOf(arguments, options, context);
-  if (!arguments.queries.empty() || !arguments.sets.empty()) {
-    task.queries.Choose(arguments.queries, arguments.sets);
+  if (!arguments.sensors.empty()) return Chosen(arguments, TaskOfSensors(arguments, context));
+  BenchTask task = ReadBenchTask(
+      {arguments.dataset, arguments.protocol, arguments.world, arguments.perturb}, options);
+  if (task.asked > 0) {
+    context.Note(std::to_string(task.asked) +
+                 " queries take their camera or prior from EXIF and XMP:");
   }
-  return task;
+  if (task.asked > 0 || task.queries.protocol().place == PriorPlace::kPicture) {
+    NoteAssumptions(task.queries.dataset(), context);
+  }
+  return Chosen(arguments, std::move(task));
 }
 
 BenchOptions BenchOptionsOf(const BenchArguments& arguments, const Context& context) {
@@ -209,14 +172,6 @@ Provenance ProvenanceOf(const BenchArguments& arguments,
   return provenance;
 }
 
-World WorldOf(const BenchTask& task) {
-  // Places are those of truths and priors; a box beside the truth reaches further.
-  const bool beside = task.queries.protocol().place == PriorPlace::kBesideTruth;
-  WorldRequest request = RequestFor(task.searched, beside ? 100.0 : 50.0);
-  request.needs_terrain = request.needs_terrain || task.queries.NeedsTerrain();
-  return ReadWorld(request);
-}
-
 BenchArguments BenchArgumentsFrom(const Provenance& provenance) {
   const Json json = Json::parse(provenance.arguments);
   BenchArguments arguments;
@@ -273,7 +228,7 @@ int RunBenchCommand(const BenchArguments& arguments, const Context& context) {
       context.Note("going on with " + std::to_string(folder->found()) + " finished runs");
     }
   }
-  World world = WorldOf(task);
+  World world = ReadWorldOf(task);
   for (const std::string& warning : world.warnings) context.Warn(warning);
   const Localizer localizer(world.model, world.dtm, options);
   if (folder) folder->Begin();

@@ -8,9 +8,9 @@
 #include "cli/command.h"
 #include "cli/run_outputs.h"
 #include "eval/bench.h"
+#include "eval/bench_task.h"
 #include "eval/provenance.h"
 #include "eval/shard.h"
-#include "input/world.h"
 
 namespace ridgeline {
 
@@ -35,12 +35,6 @@ struct BenchArguments {
   std::string options_json;  // the resolved options in place of `config`; of results to go on with
 };
 
-// The queries as the search gets them, and the dataset whose model is searched.
-struct BenchTask {
-  BenchQueries queries;
-  Dataset searched;
-};
-
 LocalizerOptions OptionsOf(const BenchArguments& arguments);
 
 // Reads the dataset, and chooses queries. Throws InputError for arguments that do not fit together.
@@ -55,9 +49,6 @@ BenchOptions BenchOptionsOf(const BenchArguments& arguments, const Context& cont
 Provenance ProvenanceOf(const BenchArguments& arguments,
                         const BenchTask& task,
                         const LocalizerOptions& options);
-
-// The world that a task is searched in.
-World WorldOf(const BenchTask& task);
 
 // The arguments that results were made with, with the whole's work: no shard, no outputs.
 BenchArguments BenchArgumentsFrom(const Provenance& provenance);

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "cli/query_input.h"
+#include "input/query_request.h"
 #include "input/dataset.h"
 #include "input/picture_input.h"
 #include "input/prior_pose.h"

@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "city/crs.h"
-#include "cli/query_input.h"
+#include "input/query_request.h"
 #include "cli/track_stream.h"
 #include "input/picture_input.h"
 #include "input/world.h"

@@ -52,7 +52,7 @@ std::vector<Check> Rerun(const fs::path& folder,
                          int count,
                          const Context& context) {
   const LocalizerOptions options = OptionsOf(arguments);
-  World world = WorldOf(task);
+  World world = ReadWorldOf(task);
   const Localizer localizer(world.model, world.dtm, options);
   const BenchOptions bench = BenchOptionsOf(arguments, context);
   const std::vector<PlannedRun> sample = SampleOf(PlanRuns(task.queries, bench), count);
