@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include "arrays.h"
+#include "base/error.h"
 #include "bindings.h"
 #include "cameras.h"
 #include "localize/localizer.h"
@@ -25,6 +26,9 @@ std::unique_ptr<OwnedTracker> Made(const SharedScene& scene, const py::dict& set
   SkylineTrackOptions options;
   SetAll(set, [&options](OptionVisitor& v) { options.Visit(v); });
   options.Validate();
+  if (options.extractor == "file") {
+    throw InputError("", "extractor", "\"file\"", "path or canny; `ridgeline skyline` reads files");
+  }
   return std::unique_ptr<OwnedTracker>(
       new OwnedTracker{scene.scene, SkylineTracker(*scene.scene, options)});
 }

@@ -9,10 +9,14 @@
 namespace ridgeline {
 namespace {
 
-// What a file holds may be of any length.
+// What a file holds may be of any length, and of any bytes: those that end or move a line of text
+// are shown as spaces.
 std::string Cut(const std::string& found) {
   constexpr std::size_t kShown = 400;
-  return found.size() <= kShown ? found : found.substr(0, kShown) + "...";
+  std::string shown = found.size() <= kShown ? found : found.substr(0, kShown) + "...";
+  std::replace_if(
+      shown.begin(), shown.end(), [](char c) { return c >= '\0' && c < ' ' && c != '\n'; }, ' ');
+  return shown;
 }
 
 std::string Message(const std::string& file,

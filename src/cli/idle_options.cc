@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "score/area_classes.h"
+#include "score/line_energy.h"
 
 namespace ridgeline {
 namespace {
@@ -22,6 +23,10 @@ std::string ScoreName(const LocalizerOptions& o) { return o.score.name; }
 std::string AreaSource(const LocalizerOptions& o) {
   return o.score.groups.Get<AreaOptions>().source;
 }
+// The distance in pixels goes before the one in widths.
+std::string DistanceBy(const LocalizerOptions& o) {
+  return o.score.groups.Get<LineEnergyOptions>().max_distance_px > 0.0 ? "above 0" : "0";
+}
 std::string Method(const LocalizerOptions& o) { return o.search.method; }
 std::string Sampler(const LocalizerOptions& o) { return o.search.sampler.name; }
 std::string Refine(const LocalizerOptions& o) { return o.search.refine ? "true" : "false"; }
@@ -35,6 +40,7 @@ const std::vector<Rule>& Rules() {
       {"score.evidence.facades.", "score.name", ScoreName, {"evidence"}},
       {"score.evidence.colours.", "score.name", ScoreName, {"evidence"}},
       {"score.line_energy.", "score.name", ScoreName, {"line_energy", "line_energy_zbuffer", "line_energy_rays"}},
+      {"score.line_energy.max_distance_width", "score.line_energy.max_distance_px", DistanceBy, {"0"}},
       {"score.zbuffer_hough.", "score.name", ScoreName, {"line_energy_zbuffer"}},
       {"score.areas.", "score.name", ScoreName, {"areas"}},
       {"score.areas.file", "score.areas.source", AreaSource, {"file"}},

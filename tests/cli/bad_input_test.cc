@@ -157,8 +157,8 @@ TEST_F(BadInput, DtmThatDoesNotCoverThePrior) {
 TEST_F(BadInput, DtmMissing) {
   dtm_ = folder_ / "nowhere.tif";
   EXPECT_EQ(Message(),
-            "error: nowhere.tif: got a file that GDAL cannot open as a raster, expected a terrain "
-            "model such as a GeoTIFF or a VRT");
+            "error: nowhere.tif: got no such file, expected a terrain model such as a GeoTIFF or a "
+            "VRT");
 }
 
 TEST_F(BadInput, ImageMissing) {
