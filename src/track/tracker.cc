@@ -384,7 +384,7 @@ void Tracker::LearnOdometry(const FrameEvidence::Mode& best) {
   if (other_axes) note += std::string(" in ") + NameOf(axes_) + " axes";
   if (other_scale) note += Text(", its lengths times %.3f", scale_);
   if (other_axes && !other_scale) note += " only";
-  notes_.push_back(note + Text(" (%.0f pairs of pictures); it is taken so", finding->agreeing));
+  notes_.push_back(note + Text(" (%.0f pictures); it is taken so", finding->agreeing));
   // What was followed so far was led astray.
   filter_.Start(filter_.region());
 }
