@@ -163,7 +163,7 @@ void WriteResults(const LocalizeArguments& arguments,
                             CrsName(crs),
                             options_json,
                             {}};
-  const ReportData data = BenchReport(origin, dataset.queries, localizer, {run}, pictures);
+  const ReportData data = BenchReport(origin, dataset.queries, localizer, {&run, 1}, pictures);
   if (!arguments.out.empty()) {
     const fs::path out = arguments.out;
     WriteFileAtomically(out / "pose.json", pose_json);
