@@ -96,7 +96,7 @@ int OdometryCheck::Agreeing(std::size_t from, OdometryAxes axes, double scale) c
   return count;
 }
 
-std::optional<OdometryCheck::Finding> OdometryCheck::Find() const {
+std::optional<OdometryCheck::Finding> OdometryCheck::Find(bool scale_is_guessed) const {
   Finding best;
   int as_it_is = 0;
   for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -114,7 +114,9 @@ std::optional<OdometryCheck::Finding> OdometryCheck::Find() const {
       }
     }
   }
-  if (best.agreeing < kLeastPlaces || best.agreeing < 2 * as_it_is) return std::nullopt;
+  if (best.agreeing < kLeastPlaces || (!scale_is_guessed && best.agreeing < 2 * as_it_is)) {
+    return std::nullopt;
+  }
   return best;
 }
 

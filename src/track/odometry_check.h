@@ -37,7 +37,8 @@ class OdometryCheck {
   };
   // The axes and scale under which most poses lie on one trajectory; nullopt: too few do, or not
   // twice as many as with camera axes in scale 1.
-  std::optional<Finding> Find() const;
+  // @param scale_is_guessed  Scale 1 is nothing to hold on to: five poses are enough.
+  std::optional<Finding> Find(bool scale_is_guessed = false) const;
 
  private:
   struct Place {
