@@ -29,6 +29,7 @@ double Quantile(std::vector<double> values, double share) {
 }
 
 Json JsonOf(const TrackErrors& e) {
+  if (e.posed == 0) return {{"frames_with_truth", e.frames}, {"with_pose", 0}};
   return {{"frames_with_truth", e.frames},
           {"with_pose", e.posed},
           {"ate_rmse_m", e.ate_rmse_m},

@@ -142,6 +142,10 @@ ReportTable ErrorTable(const TrackSummary& s) {
   table.title = "Errors against the truth";
   table.header = {"", "ATE [m]", "median [m]", "RPE [m]", "RPE [°]", "1 m", "3 m", "5 m", "1 m 1°"};
   const auto add = [&](const char* name, const TrackErrors& e) {
+    if (e.posed == 0) {
+      table.rows.push_back({name, "no pose", "", "", "", "", "", "", ""});
+      return;
+    }
     table.rows.push_back({name,
                           Text("%.2f", e.ate_rmse_m),
                           Text("%.2f", e.ate_median_m),
@@ -189,8 +193,11 @@ ReportData TrackReport::Make(std::span<const TrackRow> rows, const Localizer& lo
                 {"lost", std::to_string(summary.lost)}};
   const bool has_truth = summary.causal.frames > 0;
   if (has_truth) {
+    const auto ate = [](const TrackErrors& e) {
+      return e.posed == 0 ? std::string("no pose") : Text("%.2f m", e.ate_rmse_m);
+    };
     data.facts.emplace_back("ATE, as it came → smoothed",
-                            Text("%.2f → %.2f m", summary.causal.ate_rmse_m, summary.smoothed.ate_rmse_m));
+                            ate(summary.causal) + " → " + ate(summary.smoothed));
     data.tables.push_back(ErrorTable(summary));
   }
   data.facts.emplace_back("time per frame", Text("%.0f ms", summary.median_ms));

@@ -264,6 +264,10 @@ void Print(const TrackRequest& request, const Session& session, const Context& c
                 s.median_ms);
   context.Print(line);
   const auto errors = [&](const char* name, const TrackErrors& e) {
+    if (e.posed == 0) {
+      context.Print(std::string(name) + ": no pose");
+      return;
+    }
     std::snprintf(line,
                   sizeof line,
                   "%-11s ATE %.2f m, RPE %.2f m %.2f deg; within 1 / 3 / 5 m %.0f / %.0f / %.0f %% "

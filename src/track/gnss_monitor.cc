@@ -8,6 +8,13 @@
 #include "base/error.h"
 
 namespace ridgeline {
+namespace {
+
+// A drag that one fix has seen is as likely as a jump at that fix, but for rounding: the jump, which
+// begins later, is believed.
+constexpr double kTie = 1.0 - 1e-9;
+
+}  // namespace
 
 void GnssMonitorOptions::Visit(OptionVisitor& v) {
   v.Field("noise_m", noise_m);
@@ -74,7 +81,7 @@ GnssMonitor::Verdict GnssMonitor::Add(double time_s,
     h.energy += trace * trace / variance;
     if (h.energy <= 0.0) continue;
     const double ratio = 0.5 * h.match.squaredNorm() / h.energy;
-    if (ratio > highest) {
+    if (ratio >= kTie * highest) {
       highest = ratio;
       best = &h;
     }

@@ -2,10 +2,15 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 
 #include "camera/pose.h"
 
 namespace ridgeline {
+
+// Where the length of a step is from: measured, in one scale for all steps; from the speed that was
+// followed so far; or from nothing but a usual speed.
+enum class StepLength : std::uint8_t { kMeasured, kFollowed, kGuessed };
 
 // How a camera has moved from one frame to a later one, and how well that is known.
 struct Motion {
@@ -16,6 +21,7 @@ struct Motion {
   double sigma_deg = 0.0;
   // Of the length of the step, as a share of it: one error for all steps.
   double scale_sigma = 0.0;
+  StepLength length = StepLength::kMeasured;
 };
 
 // The first motion, then the second.

@@ -10,9 +10,7 @@ namespace {
 constexpr std::size_t kMostPlaces = 12;
 constexpr double kLeastWayM = 2.0;
 constexpr double kTurnDeg = 6.0;
-// Scales this near to each other are one.
-constexpr double kSameScale = 0.1;
-constexpr int kLeastPairs = 4;
+constexpr int kLeastPlaces = 5;
 
 Eigen::Matrix3d CameraFrom(OdometryAxes axes) {
   Eigen::Matrix3d m = Eigen::Matrix3d::Identity();
@@ -29,6 +27,10 @@ Motion Between(const Motion& first, const Motion& second) {
   return motion;
 }
 
+bool IsSameStep(const Eigen::Vector3d& odometry, const Eigen::Vector3d& found) {
+  return (found - odometry).norm() <= 0.5 + 0.1 * found.norm();
+}
+
 // The scale at which the odometry's step is the one found; nullopt: it points elsewhere.
 std::optional<double> ScaleOf(const Motion& odometry, const Motion& found) {
   if (RotationDistanceDeg(odometry.now_from_before, found.now_from_before) > kTurnDeg) {
@@ -38,8 +40,9 @@ std::optional<double> ScaleOf(const Motion& odometry, const Motion& found) {
   if (length < 1e-6 || found.step_in_before.norm() < kLeastWayM) return std::nullopt;
   const double scale =
       odometry.step_in_before.dot(found.step_in_before) / (length * length);
-  const double off_m = (found.step_in_before - scale * odometry.step_in_before).norm();
-  if (scale <= 0.0 || off_m > 0.5 + 0.1 * found.step_in_before.norm()) return std::nullopt;
+  if (scale <= 0.0 || !IsSameStep(scale * odometry.step_in_before, found.step_in_before)) {
+    return std::nullopt;
+  }
   return scale;
 }
 
@@ -80,31 +83,40 @@ void OdometryCheck::Add(const Pose& found) {
   if (places_.size() > kMostPlaces) places_.erase(places_.begin());
 }
 
-std::optional<OdometryCheck::Finding> OdometryCheck::Find() const {
+int OdometryCheck::Agreeing(std::size_t from, OdometryAxes axes, double scale) const {
+  int count = 0;
+  for (const Place& place : places_) {
+    const Motion odometry = InCameraAxes(Between(places_[from].from_first, place.from_first), axes);
+    const Motion found = MotionBetween(places_[from].found, place.found);
+    count += RotationDistanceDeg(odometry.now_from_before, found.now_from_before) <= kTurnDeg &&
+                     IsSameStep(scale * odometry.step_in_before, found.step_in_before)
+                 ? 1
+                 : 0;
+  }
+  return count;
+}
+
+std::optional<OdometryCheck::Finding> OdometryCheck::Find(bool scale_is_guessed) const {
   Finding best;
   int as_it_is = 0;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    as_it_is = std::max(as_it_is, Agreeing(i, OdometryAxes::kCamera, 1.0));
+  }
   for (const OdometryAxes axes : kOdometryAxes) {
-    std::vector<double> scales;
     for (std::size_t i = 0; i < places_.size(); ++i) {
       for (std::size_t j = i + 1; j < places_.size(); ++j) {
         const Motion odometry =
             InCameraAxes(Between(places_[i].from_first, places_[j].from_first), axes);
         const auto scale = ScaleOf(odometry, MotionBetween(places_[i].found, places_[j].found));
-        if (scale) scales.push_back(*scale);
+        if (!scale) continue;
+        const int agreeing = Agreeing(i, axes, *scale);
+        if (agreeing > best.agreeing) best = {axes, *scale, agreeing};
       }
     }
-    const auto agreeing = [&](double with) {
-      return static_cast<int>(std::count_if(scales.begin(), scales.end(), [&](double s) {
-        return std::abs(std::log(s / with)) < kSameScale;
-      }));
-    };
-    if (axes == OdometryAxes::kCamera) as_it_is = agreeing(1.0);
-    for (const double scale : scales) {
-      const int count = agreeing(scale);
-      if (count > best.agreeing) best = {axes, scale, count};
-    }
   }
-  if (best.agreeing < kLeastPairs || best.agreeing <= 2 * as_it_is) return std::nullopt;
+  if (best.agreeing < kLeastPlaces || (!scale_is_guessed && best.agreeing < 2 * as_it_is)) {
+    return std::nullopt;
+  }
   return best;
 }
 

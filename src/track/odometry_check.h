@@ -33,17 +33,21 @@ class OdometryCheck {
   struct Finding {
     OdometryAxes axes = OdometryAxes::kCamera;
     double scale = 1.0;  // on the odometry's lengths
-    int agreeing = 0;    // pairs of poses that agree with it
+    int agreeing = 0;    // poses on one trajectory of the odometry under it
   };
-  // The axes and scale that most pairs of poses agree on; nullopt: too few do, or no more than
-  // agree with camera axes in scale 1.
-  std::optional<Finding> Find() const;
+  // The axes and scale under which most poses lie on one trajectory; nullopt: too few do, or not
+  // twice as many as with camera axes in scale 1.
+  // @param scale_is_guessed  Scale 1 is nothing to hold on to: five poses are enough.
+  std::optional<Finding> Find(bool scale_is_guessed = false) const;
 
  private:
   struct Place {
     Motion from_first;  // by odometry, file axes
     Pose found;
   };
+  // Poses on the odometry's trajectory through one of them, this one included.
+  int Agreeing(std::size_t from, OdometryAxes axes, double scale) const;
+
   Motion from_first_;
   std::vector<Place> places_;
 };

@@ -103,7 +103,8 @@ double PoseRegion::LogDensity(const PoseVector& v) const {
 struct PoseFilter::Samples {
   std::vector<PoseVector> poses;
   std::vector<double> log_ratios;
-  std::vector<double> log_bells;  // density of the particles' predictions
+  std::vector<double> log_bells;      // density of the particles' predictions
+  std::vector<double> log_predicted;  // the same; without particles: of the region
   std::vector<double> log_known;  // prediction, elsewhere and what else is known
   // Proposals so far: number of poses drawn, share of the prediction, mixture of the rest.
   struct Round {
@@ -114,13 +115,34 @@ struct PoseFilter::Samples {
   std::vector<Round> rounds;
   bool has_picture = true;
   double highest = kNothing;
+  double log_match = 0.0;  // LogMatch() of the samples so far
 
   std::size_t size() const { return poses.size(); }
 
+  double LogHonest(std::size_t i, const PoseFilterOptions& options) const {
+    return (log_ratios[i] - highest) / options.temperature;
+  }
   double LogLikelihood(std::size_t i, const PoseFilterOptions& options) const {
     if (!has_picture) return 0.0;
-    return LogSum(std::log1p(-options.lie_share) + (log_ratios[i] - highest) / options.temperature,
-                  std::log(options.lie_share));
+    return LogSum(std::log1p(-options.lie_share) + LogHonest(i, options),
+                  std::log(options.lie_share) + log_match);
+  }
+  // What an honest picture's likelihood is on average where the prediction puts the camera, if the
+  // prediction is right: the volume of the likelihood times the prediction's mean density, at most
+  // 1. A picture that says nothing is as likely as that, so that a wide prediction, in which even an
+  // honest picture fits nearly nowhere, is no reason to disbelieve it.
+  double LogMatch(const PoseFilterOptions& options) const {
+    double volume = 0.0, weights = 0.0, density = 0.0;
+    for (std::size_t i = 0; i < size(); ++i) {
+      const double predicted = std::exp(log_predicted[i]);
+      const double proposed = std::exp(LogProposed(i));
+      volume += std::exp(LogHonest(i, options)) / proposed / static_cast<double>(size());
+      weights += predicted / proposed;
+      density += predicted * predicted / proposed;
+    }
+    if (weights <= 0.0) return 0.0;
+    const double match = volume * density / weights;
+    return std::log(match / (1.0 + match));
   }
   double LogProposed(std::size_t i) const {
     double density = 0.0;
@@ -260,6 +282,8 @@ FilterUpdate PoseFilter::Update(const LogRatios& log_ratios,
       const PoseVector v = predicted ? DrawPredicted(random) : drawn.mixture.Draw(random);
       samples.poses.push_back(v);
       samples.log_bells.push_back(LogPredicted(v));
+      samples.log_predicted.push_back(has_particles() ? samples.log_bells.back()
+                                                      : region_.LogDensity(v));
       samples.log_known.push_back(known(v, samples.log_bells.back()));
       poses.push_back(PoseOf(v));
     }
@@ -271,6 +295,7 @@ FilterUpdate PoseFilter::Update(const LogRatios& log_ratios,
         *std::max_element(samples.log_ratios.begin() + static_cast<std::ptrdiff_t>(first),
                           samples.log_ratios.end()));
     if (samples.highest == kNothing) samples.has_picture = false;
+    if (samples.has_picture) samples.log_match = samples.LogMatch(options_);
     if (round + 1 == rounds) break;
     bells = FitBells(samples.poses,
                      samples.Weights(options_, TemperAfter(round, rounds), true),

@@ -28,7 +28,7 @@ struct TrackOptions {
   double compass_sigma_deg = 10.0;
   double fix_sigma_m = 6.0;
   // A pose is tracked from this confidence on, and sought again below the other.
-  double tracking_from = 0.9;
+  double tracking_from = 0.8;
   double seek_below = 0.6;
   // Where the position is less certain than this, nothing is left to follow [m].
   double lost_radius_m = 40.0;

@@ -32,6 +32,10 @@ constexpr double kLeastMass = 0.1;
 constexpr double kWideSigmaM = 1.5;
 // What is learned of the scale of odometry presumes that it errs by less.
 constexpr double kOneScale = 0.1;
+// Deviation of a speed that was found from some poses: it changes.
+constexpr double kFoundScale = 0.25;
+// Scales of measured odometry this near to each other are one.
+constexpr double kSameScale = 0.1;
 // What the model and the choice of a way to count errors leave at least [m, deg].
 constexpr double kModelFloorM = 0.1;
 constexpr double kModelFloorDeg = 0.1;
@@ -42,6 +46,11 @@ constexpr double kGlanceCellM = 0.6;
 // bounds of what one look can say.
 constexpr double kWidest = 5.0;  // of the start's range
 constexpr double kForget = 0.97;
+// Right and wrong poses are as likely to explain this share, and the odds (log) by which a share
+// speaks for a pose. Looks along a street share their errors: each counts little.
+constexpr double kEvenExplained = 0.8;
+constexpr double kOddsPerExplained = 3.0;
+constexpr double kMostSaid = 1.5;
 constexpr double kMostOdds = 7.5;
 
 double SigmaOf(const PoseCovariance& covariance) {
@@ -204,13 +213,17 @@ Motion Tracker::MotionOf(const TrackInput& input, std::string& reason) {
                  ? "the picture has nothing in common with the one before (a cut)"
                  : input.cut_reason;
   }
-  odometry_.Add(believed ? input.motion : std::nullopt);
+  const bool is_followed = believed && input.motion->length == StepLength::kFollowed;
+  odometry_.Add(believed && !is_followed ? input.motion : std::nullopt);
   if (!believed) {
     since_last_key_m_ = NAN;
     return UnknownMotion(
         std::min(seconds, kGapS), options_.max_speed_m_s, options_.max_turn_deg_s);
   }
   Motion motion = InCameraAxes(*input.motion, axes_);
+  length_ = motion.length;
+  if (is_followed) return motion;
+  if (length_ == StepLength::kGuessed && has_found_scale_) motion.scale_sigma = kFoundScale;
   motion.step_in_before *= scale_;
   motion.sigma_m *= scale_;
   motion.scale_sigma = std::max(motion.scale_sigma, scale_sigma_);
@@ -335,12 +348,8 @@ void Tracker::Judge(const FrameEvidence& evidence, TrackLook look, double mass, 
   if (!goodness.is_known()) return;
   explained_ = goodness.explained();
   unexplained_ = explained_ < kExplained ? unexplained_ + 1 : 0;
-  // What this look says of the particles being right, against what looks say on average. Looks along
-  // a street share their errors: each counts by half, and within bounds.
-  const OutcomeModel& right = localizer_.options().confidence.right;
-  const double p =
-      std::clamp(right.Probability(std::min(mass, 0.999), goodness, std::nullopt), 1e-3, 0.999);
-  const double says = std::clamp(0.5 * (std::log(p / (1.0 - p)) - 0.4), -1.5, 1.5);
+  const double says =
+      std::clamp(kOddsPerExplained * (explained_ - kEvenExplained), -kMostSaid, kMostSaid);
   log_odds_ = std::clamp(kForget * log_odds_ + says, -kMostOdds, kMostOdds);
   if (look == TrackLook::kWide && mass < 0.5) log_odds_ = std::min(log_odds_, 0.0);
 }
@@ -372,21 +381,27 @@ void Tracker::LearnScale(const PoseBell& now) {
 
 void Tracker::LearnOdometry(const FrameEvidence::Mode& best) {
   odometry_.Add(best.cam_from_local);
-  const auto finding = odometry_.Find();
+  const bool is_guessed = length_ == StepLength::kGuessed;
+  const auto finding = odometry_.Find(is_guessed);
   if (!finding) return;
   const bool other_axes = finding->axes != axes_;
-  const bool other_scale = std::abs(std::log(finding->scale / scale_)) > 0.1;
+  const double off = std::abs(std::log(finding->scale / scale_));
+  const bool other_scale = is_guessed ? !has_found_scale_ || off > kFoundScale : off > kSameScale;
   if (!other_axes && !other_scale) return;
   axes_ = finding->axes;
   scale_ = finding->scale;
-  scale_sigma_ = 0.05;
+  if (is_guessed) {
+    has_found_scale_ = true;
+  } else {
+    scale_sigma_ = 0.05;
+  }
   std::string note = "the odometry agrees with the pictures";
   if (other_axes) note += std::string(" in ") + NameOf(axes_) + " axes";
   if (other_scale) note += Text(", its lengths times %.3f", scale_);
   if (other_axes && !other_scale) note += " only";
-  notes_.push_back(note + Text(" (%.0f pairs of pictures); it is taken so", finding->agreeing));
-  // What was followed so far was led astray.
-  filter_.Start(filter_.region());
+  notes_.push_back(note + Text(" (%.0f pictures); it is taken so", finding->agreeing));
+  // What was followed so far was led astray, unless a guess is made better only.
+  if (other_axes || !is_guessed) filter_.Start(filter_.region());
 }
 
 void Tracker::Watch(const TrackInput& input, TrackFrame& frame) {

@@ -117,6 +117,8 @@ class Tracker {
   OdometryAxes axes_ = OdometryAxes::kCamera;
   double scale_ = 1.0;
   double scale_sigma_ = 0.0;
+  StepLength length_ = StepLength::kMeasured;  // of the last step
+  bool has_found_scale_ = false;               // of steps whose length is guessed
   bool has_one_scale_ = true;  // all motions come from one odometry
   std::optional<PoseBell> last_key_;  // confident, for the scale
   double since_last_key_m_ = 0.0;

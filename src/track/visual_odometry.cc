@@ -28,6 +28,9 @@ VisualOdometry::Result VisualOdometry::Next(const cv::Mat& bgr,
   const double speed = wheels_m_s.value_or(learned_m_s_.value_or(usual_m_s_));
   const double length_m = std::abs(speed) * seconds;
   motion.scale_sigma = wheels_m_s ? kByWheels : learned_m_s_ ? kByTrack : kByPrior;
+  motion.length = wheels_m_s     ? StepLength::kMeasured
+                  : learned_m_s_ ? StepLength::kFollowed
+                                 : StepLength::kGuessed;
   motion.sigma_m = std::max(0.05, motion.sigma_m * length_m);
   motion.step_in_before *= length_m;  // the pictures see whether it is backward
   if (seen.is_standing) motion.scale_sigma = 0.0;

@@ -13,7 +13,9 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/random.h"
 #include "track/odometry_check.h"
+#include "track/pose_vector.h"
 #include "track/track_errors.h"
 
 namespace ridgeline {
@@ -181,6 +183,28 @@ TEST(OdometryCheck, HasNothingToSayOfGoodOdometry) {
     check.Add(way[i]);
   }
   EXPECT_FALSE(check.Find());
+}
+
+TEST(OdometryCheck, DoesNotBelieveWhatPicturesSayAtRandom) {
+  // A long straight way of which the pictures give one pose in three; the others are found anywhere
+  // within 20 m, along the same street.
+  int findings = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    Random random(seed, 1);
+    OdometryCheck check;
+    Pose before;
+    for (int i = 0; i < 12; ++i) {
+      PoseVector v;
+      v << 0.0, 4.0 * i, 2.0, 0.0, 0.0, 0.0;
+      const Pose now = PoseOf(v);
+      if (i > 0) check.Add(MotionBetween(before, now));
+      before = now;
+      if (i % 3 != 0) v(1) += random.Uniform(-20.0, 20.0);
+      check.Add(PoseOf(v));
+      findings += check.Find() ? 1 : 0;
+    }
+  }
+  EXPECT_LE(findings, 2);
 }
 
 TEST(Motion, ComposesAsPosesDo) {
