@@ -335,6 +335,7 @@ void AddAyadi(CLI::App& replay, Context& context) {
 void AddReplayCommand(CLI::App& app, Context& context) {
   CLI::App* replay = app.add_subcommand(
       "replay", "Redoes a paper's experiments on one's own data: its figures and tables.");
+  replay->footer("Example:\n  ridgeline replay loeper town/dataset.json --out loeper");
   replay->fallthrough();
   replay->require_subcommand(1);
   AddLoeper(*replay, context);

@@ -27,7 +27,7 @@ void DropTimes(Json& json) {
   for (Json& value : json) DropTimes(value);
 }
 
-// Without the column "seconds"; quoted fields have no commas here.
+// Without a column of seconds; quoted fields have no commas here.
 std::string DropSeconds(const std::string& csv) {
   std::istringstream lines(csv);
   std::string kept;
@@ -37,7 +37,7 @@ std::string DropSeconds(const std::string& csv) {
     std::istringstream stream(line + ",");
     for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
     for (std::size_t i = 0; kept.empty() && i < fields.size(); ++i) {
-      if (fields[i] == "seconds") column = i;
+      if (fields[i].starts_with("seconds")) column = i;
     }
     if (column < fields.size()) fields.erase(fields.begin() + static_cast<long>(column));
     for (const std::string& field : fields) kept += field + ",";
