@@ -27,12 +27,17 @@ void DropTimes(Json& json) {
   for (Json& value : json) DropTimes(value);
 }
 
-// Without a column of seconds; quoted fields have no commas here.
+// Without a column of seconds.
 std::string DropSeconds(const std::string& csv) {
   std::istringstream lines(csv);
   std::string kept;
   std::size_t column = std::string::npos;
   for (std::string line; std::getline(lines, line);) {
+    bool is_quoted = false;
+    for (char& c : line) {
+      if (c == '"') is_quoted = !is_quoted;
+      if (c == ',' && is_quoted) c = ';';
+    }
     std::vector<std::string> fields;
     std::istringstream stream(line + ",");
     for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
