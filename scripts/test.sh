@@ -1,8 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# Installs packages, builds everything, runs all tests, and those of the readers under sanitizers.
-# Fails if any test fails. May be run again at any time; then it is quick. Arguments go to ctest, and
-# leave the sanitizers out, e.g. test.sh -R synth.
+# Installs packages, builds everything, runs all tests. Fails if any test fails. May be run again at
+# any time; then it is quick. Arguments go to ctest, e.g. test.sh -R synth.
 set -eu
 cd "$(dirname -- "$0")/.."
 ./scripts/install_packages.sh
@@ -11,7 +10,3 @@ if command -v mkdocs >/dev/null; then
   ./scripts/site.sh
 fi
 ctest --preset release --no-tests=error --parallel "$(nproc)" "$@"
-# All tests were asked for: those of the readers once more, with sanitizers.
-if [ $# -eq 0 ]; then
-  ./scripts/sanitized_tests.sh
-fi
