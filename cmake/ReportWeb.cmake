@@ -27,6 +27,7 @@ set(plotly_license "")
 if(EXISTS ${plotly_dir}/plotly-cartesian.min.js)
   set(plotly ${plotly_dir}/plotly-cartesian.min.js)
   set(plotly_license ${plotly_dir}/LICENSE)
+  set_property(GLOBAL PROPERTY RIDGELINE_PLOTLY_LICENSE ${plotly_license})
 elseif(RIDGELINE_NPM)
   message(STATUS "ridgeline: HTML reports are built WITHOUT plots: `npm ci` in web/ failed. "
                  "Check the network and configure again. npm said: ${npm_error}")

@@ -24,6 +24,7 @@ run() {
   name=$1 dataset=$2 runs=$3
   shift 3
   echo "== $name"
+  rm -rf "${out:?}/$name"
   "$program" bench "$data/$dataset" --seeds "$runs" --out "$out/$name" "$@"
 }
 run munich munich/dataset.json "$seeds" --protocol known-tilt

@@ -103,7 +103,7 @@ def run_protocol(args, town, protocol):
         return
     command = [args.program, "bench", str(make_town(args, town)), "--quiet", "--no-report",
                "--threads", str(args.threads), "--protocol", protocol, "--seed", str(town + 1),
-               "--seeds", str(args.seeds), "--out", str(folder)]
+               "--seeds", str(args.seeds), "--resume", "--out", str(folder)]
     if protocol == "elsewhere":
         command += ["--world", str(make_town(args, (town + 1) % args.towns))]
     run(command + args.bench)

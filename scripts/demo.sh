@@ -14,6 +14,15 @@ if [ ! -f $town/dataset.json ]; then
 fi
 echo
 echo "Localizing $town/images/street_005.jpg from a prior that is off by up to 10 m and 20 degrees:"
-$ridgeline localize --dataset $town/dataset.json --query street_005 --out build/demo/result
+$ridgeline localize --dataset $town/dataset.json --query street_005 --out build/demo/result \
+  --report build/demo/result.html
+echo
+echo "Look at build/demo/result/overlay.png (the model's edges over the picture) and at the report:"
+if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] && command -v xdg-open >/dev/null; then
+  xdg-open build/demo/result.html >/dev/null 2>&1 &
+  echo "  build/demo/result.html opens in your browser."
+else
+  echo "  $PWD/build/demo/result.html, in any browser."
+fi
 echo
 echo "More: $ridgeline bench $town/dataset.json --out build/demo/bench"

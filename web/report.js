@@ -7,19 +7,23 @@
   const $ = (id) => document.getElementById(id);
   const summary = read('summary');
   const marks = {right: '✓', wrong: '✗', abstained: '–', unknown: '?'};
-  const words = {right: 'right', wrong: 'wrong', abstained: 'abstained', unknown: 'without truth'};
+  // A comparison of two systems says on which photos they disagree.
+  const words = summary.pair ? {right: `only ${summary.pair[1]} is right`,
+    wrong: `only ${summary.pair[0]} is right`, abstained: 'only one has a pose', unknown: 'poses apart'} :
+    {right: 'right', wrong: 'wrong', abstained: 'abstained', unknown: 'without truth'};
   const outcomes = Object.keys(words);
   const PAGE = 60;
 
   summary.runs.forEach((run, index) => {
     run.index = index;
-    const seeds = summary.runs.some((r) => r.id === run.id && r.seed !== run.seed);
+    const seeds = summary.runs.some((r) => r.id === run.id && r.seed !== run.seed) && run.seed > 0;
     run.label = seeds ? `${run.id}, seed ${run.seed}` : run.id;
   });
 
   const sentenceOf = (run) => {
     let text = `${marks[run.outcome]} ${words[run.outcome]}`;
     if (run.outcome === 'unknown') text = run.status;
+    if (summary.pair) return text;
     if (run.translation !== null && run.rotation !== null && run.outcome !== 'abstained') {
       text += `: ${run.translation.toFixed(2)} m, ${run.rotation.toFixed(2)}°`;
     }
@@ -43,15 +47,20 @@
   const count = (outcome) => summary.runs.filter((r) => r.outcome === outcome).length;
   const withTruth = summary.runs.length - count('unknown');
   // Score studies and skylines have no confidence: their figures and plots are their own.
-  const isStudy = summary.runs.length > 0 && summary.runs.every((r) => r.confidence === null);
+  const isStudy = summary.isStudy || summary.pair !== null;
   const parts = [];
-  if (withTruth > 0) {
+  if (summary.pair) {
+    for (const outcome of outcomes) {
+      if (count(outcome)) parts.push(`${count(outcome)}: ${words[outcome]}`);
+    }
+    if (parts.length === 0) parts.push('no disagreement to show');
+  } else if (withTruth > 0) {
     parts.push(`${count('right')} of ${withTruth} ${summary.rightText}`);
     if (count('wrong')) parts.push(`${count('wrong')} wrong`);
   }
-  if (count('abstained')) parts.push(`${count('abstained')} abstained`);
-  if (count('unknown')) parts.push(`${count('unknown')} without truth`);
-  if (summary.runs.length === 1) parts.length = 0;  // the run says it itself
+  if (!summary.pair && count('abstained')) parts.push(`${count('abstained')} abstained`);
+  if (!summary.pair && count('unknown')) parts.push(`${count('unknown')} without truth`);
+  if (summary.runs.length === 1 && !summary.pair) parts.length = 0;  // the run says it itself
   $('sentence').textContent = parts.join(', ');
   $('sentence').hidden = parts.length === 0;
   $('bar').setAttribute('aria-label', parts.join(', '));
@@ -78,10 +87,11 @@
         'Share of all runs within x metres and x degrees; abstained runs count as misses. ' +
         'Band: 95 % interval (Wilson, by the number of photos).', Plots.recall(summary.recall));
     }
-    if (summary.runs.filter((r) => r.translation !== null).length > 1 && !isStudy) {
+    const judged = summary.runs.filter((r) => r.translation !== null && r.energy !== null);
+    if (judged.length > 1 && !isStudy) {
       Plots.figure($('plots'), 'Score against error',
         'A score that can be trusted keeps the right poses low. Click a point to see its photo.',
-        Plots.scatter(summary.runs, (index) => open(summary.runs[index])));
+        Plots.scatter(judged, (index) => open(summary.runs[index])));
     }
     if (withTruth > 1 && summary.reliability.length > 0) {
       Plots.figure($('plots'), 'Reliability',
@@ -121,7 +131,8 @@
     frame.append(Detail.image(photo, `Photo ${run.label} with the model's edges at the result`));
     if ($('edges').checked) {
       const detail = read('run-' + run.index);
-      const layers = detail.resultLayers.length > 0 ? detail.resultLayers : detail.priorLayers;
+      const layers = summary.pair ? detail.priorLayers.concat(detail.resultLayers) :
+        detail.resultLayers.length > 0 ? detail.resultLayers : detail.priorLayers;
       frame.append(Detail.edges(layers, photo, 0.9));
     }
   };
@@ -194,7 +205,7 @@
   const fillDetail = (run) => {
     current = run;
     $('detail-title').textContent = run.label;
-    Detail.show(run, $('detail-body'), sentenceOf(run));
+    Detail.show(run, $('detail-body'), sentenceOf(run), summary.pair);
     $('detail').scrollTop = 0;
   };
   const open = (run) => {
@@ -231,6 +242,6 @@
 
   // A report of one run shows it at once.
   if (summary.runs.length === 1) {
-    Detail.show(summary.runs[0], $('single'), sentenceOf(summary.runs[0]));
+    Detail.show(summary.runs[0], $('single'), sentenceOf(summary.runs[0]), summary.pair);
   }
 })();

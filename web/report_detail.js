@@ -63,7 +63,8 @@ const Detail = (() => {
     return list;
   };
 
-  const overlay = (run, detail, photo) => {
+  // `pair`: names of the systems whose poses stand in the places of prior and result; else null.
+  const overlay = (run, detail, photo, pair) => {
     const box = make('div');
     const frame = make('span', 'frame');
     frame.style.aspectRatio = `${photo.width} / ${photo.height}`;
@@ -84,24 +85,25 @@ const Detail = (() => {
       range.type = 'range';
       range.min = 0;
       range.max = 100;
-      range.setAttribute('aria-label', 'Left of the line: the prior; right of it: the result');
+      const [left, right] = pair || ['prior', 'result'];
+      range.setAttribute('aria-label', `Left of the line: ${left}; right of it: ${right}`);
       const show = () => {
         const at = Number(range.value);
         before.style.clipPath = `inset(0 ${100 - at}% 0 0)`;
         after.style.clipPath = `inset(0 0 0 ${at}%)`;
         divider.style.left = at + '%';
       };
-      range.value = 0;
+      range.value = pair ? 50 : 0;
       range.addEventListener('input', show);
       show();
-      row.append('result', range, 'prior');
+      row.append(right, range, left);
       box.append(row);
     }
-    if (detail.priorLayers.length === 0) {
+    if (detail.priorLayers.length === 0 && detail.prior && !pair) {
       box.append(make('p', 'dim', 'No edge of the model is in view from the prior.'));
     }
-    const layers = detail.resultLayers.length > 0 ? detail.resultLayers : detail.priorLayers;
-    box.append(legend(layers));
+    const shown = detail.priorLayers.concat(detail.resultLayers).filter((l) => l.lines.length > 0);
+    box.append(legend(shown));
     return box;
   };
 
@@ -150,6 +152,11 @@ const Detail = (() => {
   // A marker with a short line in the direction of view.
   const poseTrace = (pose, detail, name, color, symbol, reach) => {
     const [x, y] = relative(pose, detail);
+    if (!pose.hasHeading) {
+      return {x: [x], y: [y], name, mode: 'markers',
+        marker: {color, symbol, size: 13, line: {color: '#fff', width: 1}},
+        hovertemplate: `${name}: %{x:.2f} m E, %{y:.2f} m N, heading unknown<extra></extra>`};
+    }
     const heading = pose.heading * Math.PI / 180;
     return {x: [x, x + reach * Math.sin(heading)], y: [y, y + reach * Math.cos(heading)], name,
       mode: 'lines+markers', line: {color, width: 2},
@@ -174,7 +181,7 @@ const Detail = (() => {
     return [[low[0], high[0]], [low[1], high[1]]];
   };
 
-  const mapPlot = (detail) => () => {
+  const mapPlot = (detail, pair) => () => {
     const [xRange, yRange] = bounds(detail);
     const reach = 0.12 * (xRange[1] - xRange[0]);
     const data = [];
@@ -195,10 +202,10 @@ const Detail = (() => {
         hovertemplate: 'mode, energy %{text}<extra></extra>'});
     }
     if (detail.prior) {
-      data.push(poseTrace(detail.prior, detail, 'prior', '#8a94a0', 'square', reach));
+      data.push(poseTrace(detail.prior, detail, pair ? pair[0] : 'prior', pair ? '#ffaa00' : '#8a94a0', 'square', reach));
     }
     if (detail.result) {
-      data.push(poseTrace(detail.result, detail, 'result', '#ff3d9a', 'circle', reach));
+      data.push(poseTrace(detail.result, detail, pair ? pair[1] : 'result', pair ? '#00c8ff' : '#ff3d9a', 'circle', reach));
     }
     if (detail.truth) {
       data.push(poseTrace(detail.truth, detail, 'truth', '#00b86b', 'star', reach));
@@ -245,18 +252,33 @@ const Detail = (() => {
     return scroll;
   };
 
-  const poseRows = (detail) => {
+  const poseRows = (detail, pair) => {
     const rows = [];
-    for (const [name, key] of [['prior', 'prior'], ['result', 'result'], ['truth', 'truth']]) {
+    const [first, second] = pair || ['prior', 'result'];
+    for (const [name, key] of [[first, 'prior'], [second, 'result'], ['truth', 'truth']]) {
       const pose = detail[key];
       if (!pose) continue;
-      rows.push([name, ...pose.position.map((v) => v.toFixed(2)), pose.heading.toFixed(2) + '°',
+      rows.push([name, ...pose.position.map((v) => v.toFixed(2)), pose.hasHeading ? pose.heading.toFixed(2) + '°' : 'unknown',
         pose.pitch.toFixed(2) + '°', pose.roll.toFixed(2) + '°']);
     }
     return rows;
   };
 
-  const show = (run, body, sentence) => {
+  // Where the result is, and a link that shows it on a map in the browser (nothing is loaded here).
+  const placeOf = ([latitude, longitude]) => {
+    const line = make('p', 'place');
+    const words = `${Math.abs(latitude).toFixed(6)}° ${latitude < 0 ? 'S' : 'N'}, ` +
+      `${Math.abs(longitude).toFixed(6)}° ${longitude < 0 ? 'W' : 'E'}`;
+    const link = make('a', '', 'open in OpenStreetMap');
+    link.href = `https://www.openstreetmap.org/?mlat=${latitude}&mlon=${longitude}` +
+      `#map=19/${latitude}/${longitude}`;
+    link.target = '_blank';
+    link.rel = 'noopener noreferrer';
+    line.append(words + ' · ', link);
+    return line;
+  };
+
+  const show = (run, body, sentence, pair = null) => {
     Plots.forget(body);
     body.replaceChildren();
     const detail = read('run-' + run.index);
@@ -265,18 +287,20 @@ const Detail = (() => {
     status.append(make('span', 'badge ' + run.outcome, sentence));
     if (run.reason) status.append(' ' + run.reason);
     body.append(status);
-    if (photo) body.append(overlay(run, detail, photo));
+    if (detail.headline) body.append(make('p', 'headline', detail.headline));
+    if (detail.latLon) body.append(placeOf(detail.latLon));
+    if (photo) body.append(overlay(run, detail, photo, pair));
     const columns = make('div', 'columns');
     const drawable = typeof Plotly !== 'undefined' &&
       (detail.map || detail.prior || detail.result || detail.truth);
     if (drawable) {
-      const note = detail.map ? 'Least energy over all headings at each position; bright is best.' :
+      const note = pair ? 'Both poses.' : detail.map ? 'Least energy over all headings at each position; bright is best.' :
         'Positions; this search makes no map of the energy.';
-      Plots.figure(columns, 'Map', note, mapPlot(detail), true);
-      columns.firstChild.append(mapLegend(mapPlot(detail)().data));
+      Plots.figure(columns, 'Map', note, mapPlot(detail, pair), true);
+      columns.firstChild.append(mapLegend(mapPlot(detail, pair)().data));
     }
     const right = make('div');
-    const poses = poseRows(detail);
+    const poses = poseRows(detail, pair);
     if (poses.length > 0) {
       right.append(make('h3', '', 'Poses'),
         table(poses, ['', 'east', 'north', 'height', 'heading', 'pitch', 'roll']));

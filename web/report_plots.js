@@ -141,7 +141,7 @@ const Plots = (() => {
       axis(plot.x, plot.xNames.length > 0 ?
         {tickvals: plot.xNames.map((_, i) => i), ticktext: plot.xNames} :
         plot.xLog ? {type: 'log'} : {}),
-      axis(plot.y), {legend: {orientation: 'h', x: 0, y: 1.02, yanchor: 'bottom'}}),
+      axis(plot.y, plot.yLog ? {type: 'log'} : {}), {legend: {orientation: 'h', x: 0, y: 1.02, yanchor: 'bottom'}}),
   });
 
   return {add, figure, forget, redraw, color, axis, layout, recall, reliability, scatter, generic};

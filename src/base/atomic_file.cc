@@ -3,14 +3,17 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <fstream>
-#include <iterator>
 #include <mutex>
 #include <set>
 #include <system_error>
 
 #include "base/error.h"
+#include "base/limits.h"
+#include "base/regular_file.h"
 
 namespace ridgeline {
 
@@ -48,9 +51,9 @@ fs::path TemporaryBeside(const fs::path& path) {
     throw InputError(path.string(), "", "a folder that cannot be written", "write permission");
   }
   static std::atomic<unsigned> counter{0};
-  fs::path temporary = folder / ("." + path.stem().string() + ".part-" +
-                                 std::to_string(::getpid()) + "-" + std::to_string(counter++) +
-                                 path.extension().string());
+  fs::path temporary =
+      folder / ("." + path.stem().string() + ".part-" + std::to_string(::getpid()) + "-" +
+                std::to_string(counter++) + path.extension().string());
   Pending& pending = PendingTemporaries();
   const std::lock_guard lock(pending.mutex);
   pending.paths.insert(temporary);
@@ -94,11 +97,31 @@ void WriteFileAtomically(const fs::path& path, std::string_view content) {
 }
 
 std::string ReadFile(const fs::path& path) {
-  std::error_code error;
-  if (fs::is_directory(path, error)) throw InputError(path.string(), "", "a folder", "a file");
+  RequireRegularFile(path);
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw InputError(path.string(), "", "no readable file", "an existing file");
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (!stream) throw InputError(path.string(), "", "no readable file", "read permission");
+  std::string content;
+  constexpr std::size_t kChunk = std::size_t{1} << 16;
+  std::error_code error;
+  if (const std::uintmax_t size = fs::file_size(path, error); !error) {
+    content.reserve(std::min<std::uintmax_t>(size, limits::kFileBytes) + kChunk);
+  }
+  while (stream) {
+    const std::size_t old_size = content.size();
+    content.resize(old_size + kChunk);
+    stream.read(content.data() + old_size, kChunk);
+    content.resize(old_size + static_cast<std::size_t>(stream.gcount()));
+    if (content.size() > limits::kFileBytes) {
+      throw InputError(
+          path.string(),
+          "limit",
+          "a file of more than " + std::to_string(limits::kFileBytes / 1'000'000) + " MB",
+          "a smaller one, or several");
+    }
+  }
+  if (stream.bad())
+    throw InputError(path.string(), "", "a file that cannot be read", "a whole one");
+  return content;
 }
 
 }  // namespace ridgeline

@@ -9,14 +9,24 @@
 namespace ridgeline {
 namespace {
 
+// What a file holds may be of any length, and of any bytes: those that end or move a line of text
+// are shown as spaces.
+std::string Cut(const std::string& found) {
+  constexpr std::size_t kShown = 400;
+  std::string shown = found.size() <= kShown ? found : found.substr(0, kShown) + "...";
+  std::replace_if(
+      shown.begin(), shown.end(), [](char c) { return c >= '\0' && c < ' ' && c != '\n'; }, ' ');
+  return shown;
+}
+
 std::string Message(const std::string& file,
                     const std::string& field,
                     const std::string& found,
                     const std::string& expected) {
-  std::string message = file;
-  if (!field.empty()) message += (message.empty() ? "" : ": ") + field;
+  std::string message = Cut(file);
+  if (!field.empty()) message += (message.empty() ? "" : ": ") + Cut(field);
   std::string detail;
-  if (!found.empty()) detail = "got " + found;
+  if (!found.empty()) detail = "got " + Cut(found);
   if (!expected.empty()) detail += (detail.empty() ? "expected " : ", expected ") + expected;
   if (!detail.empty()) message += (message.empty() ? "" : ": ") + detail;
   return message;
@@ -39,10 +49,7 @@ std::size_t EditDistance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-InputError::InputError(std::string file,
-                       std::string field,
-                       std::string found,
-                       std::string expected)
+InputError::InputError(std::string file, std::string field, std::string found, std::string expected)
     : std::runtime_error(Message(file, field, found, expected)),
       file_(std::move(file)),
       field_(std::move(field)) {}

@@ -2,18 +2,23 @@
 #include "base/options.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/json_input.h"
+#include "base/limits.h"
 
 namespace ridgeline {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
+using Json = nlohmann::json;
 
 class JsonWriter final : public OptionVisitor {
  public:
-  explicit JsonWriter(Json& out) : out_(out) { out_ = Json::object(); }
+  explicit JsonWriter(OrderedJson& out) : out_(out) { out_ = OrderedJson::object(); }
   void Field(std::string_view name, bool& value) override { Put(name, value); }
   void Field(std::string_view name, int& value) override { Put(name, value); }
   void Field(std::string_view name, double& value) override { Put(name, value); }
@@ -31,7 +36,7 @@ class JsonWriter final : public OptionVisitor {
     out_[std::string(name)] = value;
   }
 
-  Json& out_;
+  OrderedJson& out_;
 };
 
 class JsonReader final : public OptionVisitor {
@@ -43,10 +48,17 @@ class JsonReader final : public OptionVisitor {
     Get(name, value, "true or false", [](const Json& j) { return j.is_boolean(); });
   }
   void Field(std::string_view name, int& value) override {
-    Get(name, value, "a whole number", [](const Json& j) { return j.is_number_integer(); });
+    Get(name, value, "a whole number", [](const Json& j) {
+      constexpr double kMost = std::numeric_limits<int>::max();
+      return j.is_number_integer() && std::abs(j.get<double>()) <= kMost;
+    });
   }
   void Field(std::string_view name, double& value) override {
     Get(name, value, "a number", [](const Json& j) { return j.is_number(); });
+    // Beyond it no option means anything, and squares overflow.
+    constexpr double kMost = 1e9;
+    if (std::abs(value) <= kMost) return;
+    throw InputError(file_, Path(name), JsonText(Json(value)), "a number of at most 1e9");
   }
   void Field(std::string_view name, std::string& value) override {
     Get(name, value, "a text", [](const Json& j) { return j.is_string(); });
@@ -68,7 +80,8 @@ class JsonReader final : public OptionVisitor {
     const auto it = in_.find(std::string(name));
     if (it == in_.end()) return;
     if (!it->is_object()) {
-      throw InputError(file_, Path(name), it->dump(), "an object { " + FirstKey(fields) + "... }");
+      throw InputError(
+          file_, Path(name), JsonText(*it), "an object { " + FirstKey(fields) + "... }");
     }
     JsonReader reader(*it, file_, Path(name));
     fields(reader);
@@ -104,7 +117,7 @@ class JsonReader final : public OptionVisitor {
     known_.emplace_back(name);
     const auto it = in_.find(std::string(name));
     if (it == in_.end()) return;
-    if (!test(*it)) throw InputError(file_, Path(name), it->dump(), expected);
+    if (!test(*it)) throw InputError(file_, Path(name), JsonText(*it), expected);
     value = it->template get<T>();
   }
 
@@ -117,25 +130,27 @@ class JsonReader final : public OptionVisitor {
 }  // namespace
 
 std::string OptionsToJson(const VisitOptions& options) {
-  Json json;
+  OrderedJson json;
   JsonWriter writer(json);
   options(writer);
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
-void OptionsFromJson(const std::string& text,
-                     const std::string& file,
-                     const VisitOptions& options) {
-  Json json;
-  try {
-    json = Json::parse(text);
-  } catch (const Json::parse_error& e) {
-    throw InputError(file, "byte " + std::to_string(e.byte), "text that is not JSON", "valid JSON");
-  }
+namespace {
+
+void ReadOptions(const Json& json, const std::string& file, const VisitOptions& options) {
   if (!json.is_object()) throw InputError(file, "", json.type_name(), "a JSON object { ... }");
   JsonReader reader(json, file, "");
   options(reader);
   reader.RejectUnknown();
+}
+
+}  // namespace
+
+void OptionsFromJson(const std::string& text,
+                     const std::string& file,
+                     const VisitOptions& options) {
+  ReadOptions(ParseJson(text, file), file, options);
 }
 
 void SetOption(const std::string& assignment, const VisitOptions& options) {
@@ -144,14 +159,16 @@ void SetOption(const std::string& assignment, const VisitOptions& options) {
     throw InputError("--set", "", "\"" + assignment + "\"", "path.to.key=value");
   }
   const std::string text = assignment.substr(equals + 1);
-  Json value = Json::parse(text, nullptr, false);
-  if (value.is_discarded()) value = text;
+  Json value = Json::accept(text) ? ParseJson(text, "--set") : Json(text);
   std::string path = assignment.substr(0, equals);
+  if (static_cast<std::size_t>(std::count(path.begin(), path.end(), '.')) > limits::kJsonDepth) {
+    throw InputError("--set", "limit", "a path of so many dots", "path.to.key=value");
+  }
   for (std::size_t dot = path.rfind('.'); dot != std::string::npos; dot = path.rfind('.')) {
     value = Json{{path.substr(dot + 1), value}};
     path.resize(dot);
   }
-  OptionsFromJson(Json{{path, value}}.dump(), "--set", options);
+  ReadOptions(Json{{path, value}}, "--set", options);
 }
 
 }  // namespace ridgeline

@@ -8,6 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "base/stop.h"
+
 namespace ridgeline {
 
 int ResolveThreads(int threads) {
@@ -24,9 +26,11 @@ void ParallelFor(std::size_t count, int threads, const std::function<void(std::s
   const auto work = [&] {
     for (std::size_t i = next++; i < count; i = next++) {
       try {
+        ThrowIfStopped();
         body(i);
       } catch (...) {
         const std::lock_guard lock(mutex);
+        next = count;  // all smaller indices are under way or done
         if (i < failed_index) {
           failed_index = i;
           failure = std::current_exception();

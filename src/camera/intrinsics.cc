@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 #include <vector>
 
 #include "base/error.h"
+#include "base/limits.h"
 #include "camera/focal_length.h"
 
 namespace ridgeline {
@@ -83,9 +85,8 @@ std::string Rounded(const char* format, double value) {
 }
 
 std::string OddFocal(double focal, int width, int height) {
-  return Rounded("%.6g", focal) + ", " +
-         Rounded("%.3g", DiagonalViewDeg(focal, width, height)) + " deg across " +
-         std::to_string(width) + " x " + std::to_string(height) + " px";
+  return Rounded("%.6g", focal) + ", " + Rounded("%.3g", DiagonalViewDeg(focal, width, height)) +
+         " deg across " + std::to_string(width) + " x " + std::to_string(height) + " px";
 }
 
 // What a number that is no focal length in pixels is likely to be.
@@ -102,6 +103,29 @@ std::string MeantFocal(double focal, int width, int height) {
     return "; millimetres? As a 35 mm equivalent it is " + Rounded("%.1f px", film_px);
   }
   return "; of a larger picture, or in micrometres?";
+}
+
+// A principal point far outside of the picture, or distortion beyond any lens, is a slip; their
+// squares would overflow.
+void CheckParameters(const CameraIntrinsics& camera,
+                     const std::string& file,
+                     const std::string& field) {
+  const std::vector<double>& params = camera.params;
+  constexpr double kMostSides = 10.0;
+  constexpr double kMostDistortion = 1e4;
+  const ModelLayout& layout = *FindModel(camera.model);
+  const std::size_t first = layout.two_focal_lengths ? 2 : 1;
+  for (std::size_t i = first; i < params.size(); ++i) {
+    const bool is_point = i < first + 2;
+    const double most =
+        is_point ? kMostSides * std::max(camera.width, camera.height) : kMostDistortion;
+    if (std::abs(params[i]) <= most) continue;
+    throw InputError(file,
+                     field + ".params[" + std::to_string(i) + "]",
+                     Rounded("%.6g", params[i]),
+                     is_point ? "a principal point in pixels, in the picture or near it"
+                              : "a parameter of distortion (of normalized coordinates)");
+  }
 }
 
 }  // namespace
@@ -128,6 +152,12 @@ void CameraIntrinsics::Validate(const std::string& file, const std::string& fiel
   }
   if (width <= 0) throw InputError(file, field + ".width", std::to_string(width), "> 0");
   if (height <= 0) throw InputError(file, field + ".height", std::to_string(height), "> 0");
+  if (std::int64_t{width} * height > limits::kPicturePixels) {
+    throw InputError(file,
+                     field + ": limit",
+                     std::to_string(width) + " x " + std::to_string(height) + " px",
+                     "at most " + std::to_string(limits::kPicturePixels) + " px (a smaller copy)");
+  }
   if (params.size() != layout->num_params) {
     throw InputError(file,
                      field + ".params",
@@ -150,6 +180,7 @@ void CameraIntrinsics::Validate(const std::string& file, const std::string& fiel
                            MeantFocal(params[i], width, height));
     }
   }
+  CheckParameters(*this, file, field);
 }
 
 bool CameraIntrinsics::HasDistortion() const {

@@ -6,11 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <fstream>
-#include <system_error>
 #include <utility>
 
-#include "base/error.h"
+#include "base/atomic_file.h"
+#include "base/regular_file.h"
 
 namespace ridgeline {
 namespace {
@@ -206,13 +205,8 @@ bool IsTiff(std::string_view file) {
 }  // namespace
 
 PictureBlocks ReadPictureBlocks(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
-    throw InputError(path.string(), "", "no such file", "a picture");
-  }
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw InputError(path.string(), "", "no readable file", "a picture");
-  std::string file{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  RequireRegularFile(path, "a picture");
+  std::string file = ReadFile(path);
   if (file.starts_with("\xff\xd8")) return OfJpeg(file);
   if (file.starts_with("\x89PNG\r\n\x1a\n")) return OfPng(file);
   if (file.starts_with("RIFF") && file.compare(8, 4, "WEBP") == 0) return OfWebp(file);

@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "base/gdal_handles.h"
+#include "base/limits.h"
 #include "city/crs.h"
 #include "city/format/web_file.h"
 #include "city/open_raster.h"
@@ -23,8 +24,6 @@
 
 namespace ridgeline {
 namespace {
-
-constexpr std::int64_t kMaxCells = 100'000'000;  // of the part that is read
 
 // The file itself, or the copy of one on a web server.
 std::string LocalFile(const std::string& file, std::vector<std::string>& warnings) {
@@ -192,12 +191,37 @@ Window WindowAround(const GeoTransform& g,
 
 void CheckSize(const Window& window, const std::string& file) {
   const std::int64_t cells = std::int64_t{window.columns} * window.rows;
-  if (cells <= kMaxCells) return;
+  if (cells <= limits::kRasterCells) return;
   throw InputError(
       file,
       "limit",
       std::to_string(window.columns) + " x " + std::to_string(window.rows) + " cells to be read",
-      "at most " + std::to_string(kMaxCells) + " (a coarser raster, or a smaller place)");
+      "at most " + std::to_string(limits::kRasterCells) +
+          " (a coarser raster, or a smaller place)");
+}
+
+// The same for a window that is to be turned north up onto square cells: those of its upright box
+// count, which is large where a grid is sheared or its cells are long, and each is held three
+// times.
+void CheckTurned(const GeoTransform& g, const Window& window, const std::string& file) {
+  constexpr double kCopies = 4.0;
+  Eigen::AlignedBox2d box;
+  for (const double column : {0.0, static_cast<double>(window.columns)}) {
+    for (const double row : {0.0, static_cast<double>(window.rows)}) {
+      box.extend(Eigen::Vector2d(column * g.c[1] + row * g.c[2], column * g.c[4] + row * g.c[5]));
+    }
+  }
+  const double cell_area = std::abs(g.c[1] * g.c[5] - g.c[2] * g.c[4]);
+  const double cells =
+      std::max(box.sizes().prod() / cell_area, static_cast<double>(window.columns) * window.rows);
+  if (cells * kCopies <= static_cast<double>(limits::kRasterCells)) return;  // false for NaN
+  throw InputError(file,
+                   "limit",
+                   std::to_string(window.columns) + " x " + std::to_string(window.rows) +
+                       " cells to be read from a grid that is not square and north up",
+                   "at most " +
+                       std::to_string(limits::kRasterCells / static_cast<std::int64_t>(kCopies)) +
+                       " north up (gdalwarp makes it so)");
 }
 
 // The window as a grid of heights [m] in memory, what is missing NaN.
@@ -206,7 +230,7 @@ GdalDatasetPtr CleanCopy(const GeoTransform& g,
                          const OGRSpatialReference* system,
                          RasterValues& values,
                          const std::string& file) {
-  CheckSize(window, file);
+  CheckTurned(g, window, file);
   GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("MEM");
   GdalDatasetPtr copy(driver->Create("", window.columns, window.rows, 1, GDT_Float64, nullptr));
   if (copy == nullptr)

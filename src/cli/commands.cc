@@ -3,17 +3,23 @@
 
 #include "cli/augment.h"
 #include "cli/bench.h"
+#include "cli/calibrate.h"
+#include "cli/compare.h"
 #include "cli/completion.h"
 #include "cli/convert.h"
 #include "cli/doctor.h"
 #include "cli/index.h"
 #include "cli/info.h"
 #include "cli/localize.h"
+#include "cli/merge.h"
 #include "cli/options.h"
 #include "cli/render.h"
+#include "cli/replay.h"
 #include "cli/skyline.h"
 #include "cli/study.h"
 #include "cli/synth.h"
+#include "cli/track.h"
+#include "cli/verify.h"
 #include "cli/version.h"
 
 namespace ridgeline {
@@ -26,12 +32,18 @@ constexpr AddFunction kCommands[] = {
     AddLocalizeCommand,
     AddBenchCommand,
     AddStudyCommand,
+    AddMergeCommand,
+    AddCompareCommand,
+    AddVerifyCommand,
     AddIndexCommand,
     AddInfoCommand,
     AddConvertCommand,
+    AddCalibrateCommand,
     AddRenderCommand,
     AddSkylineCommand,
+    AddTrackCommand,
     AddAugmentCommand,
+    AddReplayCommand,
     AddSynthCommand,
     AddOptionsCommand,
     AddDoctorCommand,

@@ -45,14 +45,14 @@ int RunCompletion(const CompletionArguments& arguments,
 
 void AddCompletionCommand(CLI::App& app, Context& context) {
   auto arguments = std::make_shared<CompletionArguments>();
-  CLI::App* command = AddCommand(
-      app,
-      context,
-      {"completion",
-       "Prints shell completion, or writes man pages.",
-       "ridgeline completion bash > ~/.local/share/bash-completion/completions/ridgeline\n"
-       "ridgeline completion man --out ~/.local/share/man/man1"},
-      [arguments, &app](Context& c) { return RunCompletion(*arguments, app, c); });
+  CLI::App* command =
+      AddCommand(app,
+                 context,
+                 {"completion",
+                  "Prints shell completion, or writes man pages.",
+                  "eval \"$(ridgeline completion bash)\"  # in ~/.bashrc\n"
+                  "mkdir -p man1 && ridgeline completion man --out man1"},
+                 [arguments, &app](Context& c) { return RunCompletion(*arguments, app, c); });
   command->add_option("what", arguments->what, "bash, zsh or man")
       ->check(CLI::IsMember({"bash", "zsh", "man"}))
       ->required();

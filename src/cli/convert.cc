@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "city/crs.h"
 #include "cli/command.h"
+#include "convert/doubts.h"
 #include "convert/formats.h"
 
 namespace ridgeline {
@@ -101,6 +102,13 @@ void RefuseIdle(const ConvertArguments& arguments, const std::string& from, cons
   }
 }
 
+void WarnOfDoubts(const Dataset& dataset, const ConvertOptions& options, const Context& context) {
+  const Eigen::Vector3d origin = options.origin.value_or(Eigen::Vector3d::Zero());
+  for (const std::string& doubt : DoubtsOf(dataset, origin)) {
+    context.Warn(dataset.file.string() + ": " + doubt);
+  }
+}
+
 int RunConvert(const ConvertArguments& arguments, const Context& context) {
   const ConvertOptions options = OptionsOf(arguments);
   const std::string to = arguments.to.empty() ? FormatOfOutput(arguments.out) : arguments.to;
@@ -111,6 +119,7 @@ int RunConvert(const ConvertArguments& arguments, const Context& context) {
     const std::string format = FormatOfInput(arguments.inputs[i]);
     Merge(ReadInput(arguments.inputs[i], format, options), format == "results", dataset);
   }
+  if (from != "dataset") WarnOfDoubts(dataset, options, context);
   RefuseIdle(arguments, from, to);
   RefuseIdleCamera(options.camera, dataset);
   if (to == "dataset") {
@@ -153,8 +162,9 @@ void AddConvertCommand(CLI::App& app, Context& context) {
       context,
       {"convert",
        "Turns poses and cameras of other programs into a dataset, and results into their formats.",
-       "ridgeline convert colmap/sparse --model city.gml --dtm dtm.tif --images colmap/images \\\n"
-       "    --out town/dataset.json\n"
+       "ridgeline convert town/dataset.json --to colmap --out colmap\n"
+       "ridgeline convert colmap --model town/city.gml --dtm town/dtm.tif \\\n"
+       "    --images town/images --out again.json\n"
        "ridgeline convert town/dataset.json results/results.csv --out results.kml"},
       [arguments](Context& c) { return RunConvert(*arguments, c); });
   command

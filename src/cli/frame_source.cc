@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/regular_file.h"
 #include "camera/picture_camera.h"
 #include "input/read_picture.h"
 #include "localize/localizer.h"
@@ -95,6 +96,7 @@ std::unique_ptr<FrameSource> OpenFrames(const fs::path& path) {
   } else if (IsPicture(path)) {
     files.push_back(path);
   } else {
+    RequireRegularFile(path, "a picture, a folder of pictures or a video");
     return std::make_unique<Video>(path);
   }
   std::vector<Query> queries(files.size());

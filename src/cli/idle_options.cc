@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "score/area_classes.h"
+#include "score/line_energy.h"
 
 namespace ridgeline {
 namespace {
@@ -18,6 +20,13 @@ struct Rule {
 
 std::string Detector(const LocalizerOptions& o) { return o.lines.detector; }
 std::string ScoreName(const LocalizerOptions& o) { return o.score.name; }
+std::string AreaSource(const LocalizerOptions& o) {
+  return o.score.groups.Get<AreaOptions>().source;
+}
+// The distance in pixels goes before the one in widths.
+std::string DistanceBy(const LocalizerOptions& o) {
+  return o.score.groups.Get<LineEnergyOptions>().max_distance_px > 0.0 ? "above 0" : "0";
+}
 std::string Method(const LocalizerOptions& o) { return o.search.method; }
 std::string Sampler(const LocalizerOptions& o) { return o.search.sampler.name; }
 std::string Refine(const LocalizerOptions& o) { return o.search.refine ? "true" : "false"; }
@@ -30,8 +39,18 @@ const std::vector<Rule>& Rules() {
       {"score.evidence.sky.", "score.name", ScoreName, {"evidence"}},
       {"score.evidence.facades.", "score.name", ScoreName, {"evidence"}},
       {"score.evidence.colours.", "score.name", ScoreName, {"evidence"}},
-      {"score.line_energy.", "score.name", ScoreName, {"line_energy", "line_energy_zbuffer"}},
+      {"score.line_energy.", "score.name", ScoreName, {"line_energy", "line_energy_zbuffer", "line_energy_rays"}},
+      {"score.line_energy.max_distance_width", "score.line_energy.max_distance_px", DistanceBy, {"0"}},
       {"score.zbuffer_hough.", "score.name", ScoreName, {"line_energy_zbuffer"}},
+      {"score.areas.", "score.name", ScoreName, {"areas"}},
+      {"score.areas.file", "score.areas.source", AreaSource, {"file"}},
+      {"score.areas.building", "score.areas.source", AreaSource, {"file"}},
+      {"score.areas.roof", "score.areas.source", AreaSource, {"file"}},
+      {"score.areas.wall", "score.areas.source", AreaSource, {"file"}},
+      {"score.areas.sky", "score.areas.source", AreaSource, {"file"}},
+      {"score.areas.ground", "score.areas.source", AreaSource, {"file"}},
+      {"score.areas.unknown", "score.areas.source", AreaSource, {"file"}},
+      {"score.rays.", "score.name", ScoreName, {"line_energy_rays"}},
       {"score.oriented_chamfer.", "score.name", ScoreName, {"oriented_chamfer"}},
       {"score.gradient.", "score.name", ScoreName, {"gradient"}},
       {"score.unexplained.", "score.name", ScoreName, {"unexplained"}},

@@ -60,7 +60,7 @@ void AddIndexCommand(CLI::App& app, Context& context) {
                                  context,
                                  {"index",
                                   "Puts the tiles of a city into one file that is quick to search.",
-                                  "ridgeline index tiles/ --out city.gpkg"},
+                                  "ridgeline index town/city.gml --out city.gpkg"},
                                  [arguments](Context& c) { return RunIndex(*arguments, c); });
   command->add_option("tiles", arguments->tiles, "Model files, or folders of them")->required();
   command->add_option("--out", arguments->out, "GeoPackage to write (city.gpkg)")->required();

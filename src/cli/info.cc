@@ -259,12 +259,13 @@ int RunInfo(const InfoArguments& arguments, const Context& context) {
 
 void AddInfoCommand(CLI::App& app, Context& context) {
   auto arguments = std::make_shared<InfoArguments>();
-  CLI::App* command = AddCommand(app,
-                                 context,
-                                 {"info",
-                                  "Tells what is in models, terrain models and pictures.",
-                                  "ridgeline info town.gml dtm.tif photo.jpg"},
-                                 [arguments](Context& c) { return RunInfo(*arguments, c); });
+  CLI::App* command =
+      AddCommand(app,
+                 context,
+                 {"info",
+                  "Tells what is in models, terrain models and pictures.",
+                  "ridgeline info town/city.gml town/dtm.tif town/images/street_000.jpg"},
+                 [arguments](Context& c) { return RunInfo(*arguments, c); });
   command->add_option("files", arguments->files, "Models (one city together), rasters, pictures")
       ->required();
   command->add_option("--model-crs", arguments->city.model_crs, "Overrides the models' CRS");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/localize.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -14,8 +13,9 @@
 #include "cli/out_folder.h"
 #include "cli/progress.h"
 #include "cli/query_input.h"
+#include "cli/sensor_priors.h"
 #include "cli/version.h"
-#include "eval/bench.h"
+#include "eval/localize_task.h"
 #include "eval/pose_json.h"
 #include "input/picture_input.h"
 #include "input/read_picture.h"
@@ -33,6 +33,7 @@ struct LocalizeArguments {
   QueryArguments query;
   std::string prior;
   std::string lines;
+  std::string sensors;
   std::string out;
   std::string report;
   std::optional<double> declination_deg;
@@ -56,118 +57,20 @@ void ReadOptions(const LocalizeArguments& arguments, LocalizerOptions& options) 
   RefuseIdleOptions(arguments.config.set, options);
 }
 
-Dataset ReadTask(const LocalizeArguments& arguments) {
+Dataset ReadDatasetOf(const LocalizeArguments& arguments) {
   if (arguments.query.image.empty() && arguments.query.dataset.empty()) {
     throw InputError("IMAGE", "", "nothing", "a picture, or --dataset with --query");
   }
   Dataset dataset = ReadQuery(arguments.query);
   Query& query = dataset.queries.front();
+  if (!arguments.prior.empty() && !arguments.sensors.empty()) {
+    throw InputError("--prior", "", "a prior beside --sensors", "one of the two");
+  }
   if (!arguments.prior.empty()) {
     query.prior = ReadPrior(arguments.prior);
     dataset.file = arguments.prior;  // which is named where the prior leaves something open
   }
-  if (!arguments.lines.empty()) query.lines = arguments.lines;
   return dataset;
-}
-
-// Camera and prior from the picture where nothing else gives them.
-PictureInput TakeFromPicture(const LocalizeArguments& arguments,
-                             const LocalizerOptions& options,
-                             PictureReader& pictures,
-                             Dataset& dataset) {
-  PictureInputOptions picture_options;
-  picture_options.declination_deg = arguments.declination_deg;
-  picture_options.camera_height_m = options.search.space.camera_height_m;
-  Query& query = dataset.queries.front();
-  std::optional<Crs> crs;
-  PictureInput made = CompleteFromPicture(dataset, true, picture_options, pictures, crs, query);
-  if (!query.prior) {
-    throw InputError(query.image.string(),
-                     "position",
-                     "none in its EXIF or XMP",
-                     "--prior FILE with {\"position\": [east, north], \"heading_deg\": ...}");
-  }
-  if (arguments.declination_deg && !made.magnetic) {
-    throw InputError("--declination",
-                     "",
-                     "a heading that is not from magnetic north",
-                     "no declination (it turns a picture's own magnetic heading)");
-  }
-  return made;
-}
-
-// A prior of the picture's own is searched as far as it may be off, unless the user says otherwise.
-void WidenRanges(const PictureInput& made, PoseSpaceOptions& ranges) {
-  if (!made.prior) return;
-  const PoseSpaceOptions defaults;
-  const auto widen = [](double& range, double default_range, double wanted) {
-    if (range == default_range) range = std::max(range, wanted);
-  };
-  widen(ranges.east_m, defaults.east_m, made.horizontal_m);
-  widen(ranges.north_m, defaults.north_m, made.horizontal_m);
-  widen(ranges.height_m, defaults.height_m, made.height_m);
-  widen(ranges.pitch_deg, defaults.pitch_deg, made.pitch_deg);
-  widen(ranges.roll_deg, defaults.roll_deg, made.roll_deg);
-}
-
-std::string RangesText(const PosePrior& prior, const PoseSpaceOptions& ranges) {
-  char text[200];
-  std::snprintf(text,
-                sizeof(text),
-                "within %.0f m east and north, %.0f m up and down, %.0f deg heading, %.0f pitch, "
-                "%.0f roll (--set search.pitch_deg=... and the like)",
-                std::max(ranges.east_m, ranges.north_m),
-                ranges.height_m,
-                prior.heading_deg ? ranges.heading_deg : 180.0,
-                ranges.pitch_deg,
-                ranges.roll_deg);
-  return text;
-}
-
-// Whether there is a place at all for the camera: said before the search, since the user can mend
-// it.
-void CheckPlace(const Dataset& dataset,
-                const Localizer& localizer,
-                const PoseSpaceOptions& ranges) {
-  const PosePrior& prior = *dataset.queries.front().prior;
-  const Eigen::Vector2d local =
-      prior.position_in_world - localizer.scene().model().origin_in_world.head<2>();
-  if (!local.allFinite() || !ranges.free_space) return;
-  char place[80];
-  std::snprintf(
-      place, sizeof(place), "%.1f, %.1f", prior.position_in_world.x(), prior.position_in_world.y());
-  const HeightGrid* const dtm = localizer.dtm();
-  const auto on_terrain = [&](const Eigen::Vector2d& xy) {
-    return dtm == nullptr || dtm->HeightAt(xy).has_value();
-  };
-  bool terrain_near = false;
-  std::optional<PoseSpace> space;
-  if (prior.height_in_world || on_terrain(local)) {
-    space.emplace(prior, ranges, localizer.scene(), dtm, localizer.footprints());
-  }
-  constexpr int kSteps = 10;  // each way from the middle
-  for (int i = -kSteps; i <= kSteps; ++i) {
-    for (int j = -kSteps; j <= kSteps; ++j) {
-      const double east = ranges.east_m * i / kSteps;
-      const double north = ranges.north_m * j / kSteps;
-      if (!on_terrain(local + Eigen::Vector2d(east, north))) continue;
-      terrain_near = true;
-      for (const double height : {0.0, ranges.height_m, -ranges.height_m}) {
-        if (space && space->PositionAt(east, north, height)) return;
-      }
-    }
-  }
-  if (!terrain_near || !space) {
-    throw InputError(dataset.dtm ? dataset.dtm->string() : "prior",
-                     "position",
-                     std::string("no terrain at the prior, ") + place,
-                     "a terrain model that covers the prior");
-  }
-  throw InputError("prior",
-                   "position",
-                   std::string("a place in a building or under ground, ") + place +
-                       ", and none outside of it within the search ranges",
-                   "a place where a camera can be (or larger search.east_m, search.north_m)");
 }
 
 void PrintDoubts(const Localization& found, const Context& context) {
@@ -224,17 +127,35 @@ void PrintResult(const BenchRun& run, const Context& context) {
   context.Print(line);
 }
 
+// Files that the result is made of, hashed.
+std::vector<HashedFile> InputsOf(const LocalizeArguments& arguments, const Dataset& dataset) {
+  const Query& query = dataset.queries.front();
+  std::vector<HashedFile> inputs;
+  AddHashed("image", query.image, inputs);
+  for (const fs::path& model : dataset.model) AddHashed("model", model, inputs);
+  if (dataset.dtm) AddHashed("dtm", *dataset.dtm, inputs);
+  if (query.lines) AddHashed("lines", *query.lines, inputs);
+  const std::pair<const char*, const std::string&> named[] = {
+      {"dataset", arguments.query.dataset},
+      {"camera", arguments.query.camera},
+      {"prior", arguments.prior},
+      {"sensors", arguments.sensors}};
+  for (const auto& [role, path] : named) {
+    if (!path.empty()) AddHashed(role, path, inputs);
+  }
+  return inputs;
+}
+
 // What the search found, in files.
 void WriteResults(const LocalizeArguments& arguments,
                   const Dataset& dataset,
                   const Localizer& localizer,
-                  const std::vector<BenchRun>& runs,
+                  const BenchRun& run,
                   const std::string& pose_json,
                   const std::string& options_json,
                   PictureReader& pictures) {
   if (arguments.out.empty() && arguments.report.empty()) return;
   const Query& query = dataset.queries.front();
-  const BenchRun& run = runs.front();
   const Crs& crs = localizer.scene().model().crs;
   const ReportOrigin origin{"Pose of " + query.image.filename().string(),
                             "ridgeline localize",
@@ -242,13 +163,19 @@ void WriteResults(const LocalizeArguments& arguments,
                             CrsName(crs),
                             options_json,
                             {}};
-  const ReportData data = BenchReport(origin, dataset.queries, localizer, runs, pictures);
+  const ReportData data = BenchReport(origin, dataset.queries, localizer, {&run, 1}, pictures);
   if (!arguments.out.empty()) {
     const fs::path out = arguments.out;
     WriteFileAtomically(out / "pose.json", pose_json);
     WriteFileAtomically(
         out / "report.json",
-        RunJson(run.localization, arguments.seed, VersionText(), options_json, query.assumptions));
+        RunJson(run.localization,
+                arguments.seed,
+                VersionText(),
+                options_json,
+                query.assumptions,
+                InputsOf(arguments, dataset),
+                fs::current_path().string()));
     const cv::Mat photo = UndistortImage(BgrOf(pictures.Read(query)), *query.camera);
     WriteOverlay(
         photo, ResultOverlay(localizer, CameraOf(query, run.localization), run), {}, out / "overlay.png");
@@ -260,54 +187,45 @@ void WriteResults(const LocalizeArguments& arguments,
   if (!arguments.report.empty()) WriteHtmlReport(data, arguments.report);
 }
 
-int RunLocalize(const LocalizeArguments& arguments, const Context& context) {
+int RunLocalize(LocalizeArguments arguments, const Context& context) {
   Stages stages(context);
   stages.Begin("reading the picture");
-  Dataset dataset = ReadTask(arguments);
-  LocalizerOptions options;
-  ReadOptions(arguments, options);
+  const SensorOptions sensors = TakeSensorOptions(arguments.sensors, arguments.config.set);
+  LocalizeTask task;
+  task.dataset = ReadDatasetOf(arguments);
+  if (!arguments.sensors.empty()) {
+    PriorsFromSensors(arguments.sensors, sensors, context, task.dataset);
+  }
+  ReadOptions(arguments, task.options);
+  task.declination_deg = arguments.declination_deg;
+  task.lines = arguments.lines;
   const OutFolder out_folder("--out", arguments.out);
   CheckFileToWrite("--report", arguments.report);
   PictureReader pictures;
-  const PictureInput made = TakeFromPicture(arguments, options, pictures, dataset);
-  PoseSpaceOptions& ranges = options.search.space;
-  WidenRanges(made, ranges);
-  Query& query = dataset.queries.front();
-  query.assumptions.push_back({"search", RangesText(*query.prior, ranges), "options"});
-  if (!arguments.lines.empty()) {
-    query.assumptions.push_back({"lines", "those of the file; none are detected", arguments.lines});
-  }
+  CompleteTask(task, pictures);
+  const Query& query = task.query();
   stages.End();
   for (const Assumption& assumption : query.assumptions) context.Note(TextOf(assumption));
 
   stages.Begin("reading the model");
-  const World world = ReadWorld(dataset, std::max(ranges.east_m, ranges.north_m));
+  const World world = ReadWorldOf(task);
   stages.End();
-  if (world.dtm_of_model) {
-    query.assumptions.push_back(
-        {"terrain", "where the model's buildings stand", dataset.model.front().string()});
-  }
   for (const std::string& warning : world.warnings) context.Warn(warning);
   stages.Begin("building the scene");
-  const Localizer localizer(world.model, world.dtm, options);
-  CheckPlace(dataset, localizer, ranges);
+  const Localizer localizer(world.model, world.dtm, task.options);
+  CheckPlace(task, localizer);
 
   stages.Begin("searching");
-  BenchOptions bench;
-  bench.seeds = {static_cast<int>(arguments.seed)};
-  bench.threads = context.threads;
-  bench.pictures = &pictures;
-  const std::vector<BenchRun> runs = RunBench(BenchQueries(dataset), localizer, bench, {});
-  const BenchRun& run = runs.front();
+  const BenchRun run = RunTask(task, localizer, arguments.seed, context.threads, pictures);
   const std::string pose_json =
       PoseJson(query.image.string(), run.localization, world.model, query.assumptions);
   stages.Begin("writing the results");
   WriteResults(arguments,
-               dataset,
+               task.dataset,
                localizer,
-               runs,
+               run,
                pose_json,
-               OptionsToJson([&](OptionVisitor& v) { options.Visit(v); }),
+               OptionsToJson([&](OptionVisitor& v) { task.options.Visit(v); }),
                pictures);
   stages.End();
   for (const std::string& warning : run.localization.warnings) context.Warn(warning);
@@ -332,10 +250,10 @@ void AddLocalizeCommand(CLI::App& app, Context& context) {
       context,
       {"localize",
        "Finds the pose of one picture.",
-       "ridgeline localize photo.jpg --model city.gpkg --dtm dtm.tif\n"
-       "ridgeline localize photo.jpg --model city.gml --dtm dtm.tif --camera camera.json \\\n"
-       "    --prior prior.json --out result --report result.html\n"
-       "ridgeline localize --dataset town/dataset.json --query street_000 --out result"},
+       "ridgeline localize --dataset town/dataset.json --query street_000 \\\n"
+       "    --out result --report result.html\n"
+       "# a photo of your own with GNSS in its EXIF, or with --camera and --prior files:\n"
+       "# ridgeline localize photo.jpg --model tiles/ --dtm dtm.tif --out result"},
       [arguments](Context& c) { return RunLocalize(*arguments, c); });
   command->add_option("image", arguments->query.image, "Picture");
   AddQueryOptions(*command, arguments->query);
@@ -349,6 +267,11 @@ void AddLocalizeCommand(CLI::App& app, Context& context) {
       "Magnetic declination [deg], east positive; else by the World Magnetic Model");
   command->add_option(
       "--lines", arguments->lines, "Segments of another detector, in place of lines.detector");
+  command
+      ->add_option("--sensors",
+                   arguments->sensors,
+                   "Prior from a phone's instruments (CSV, docs/skyline.md), by the picture's name")
+      ->type_name("FILE");
   command->add_option("--out",
                       arguments->out,
                       "Folder for pose.json, report.json, overlay.png, map.geojson, energy.tif");

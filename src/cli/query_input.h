@@ -2,34 +2,12 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <string>
-#include <vector>
 
-#include "input/dataset.h"
+#include "input/query_request.h"
 
 namespace ridgeline {
 
-// A picture in a model, named on the command line: a query of a dataset, or its parts one by one,
-// which go before the dataset's.
-struct QueryArguments {
-  std::string dataset;
-  std::string query;
-  std::vector<std::string> model;
-  std::string dtm;
-  std::string crs;
-  std::string image;
-  std::string camera;
-};
-
 // --dataset, --query, --model, --dtm, --crs and --camera.
 void AddQueryOptions(CLI::App& command, QueryArguments& arguments);
-
-// Makes --crs the system of a dataset's positions; "" leaves it. Throws InputError for what is no
-// system and for one other than the dataset's own.
-void SetCrs(const std::string& crs, Dataset& dataset);
-
-// A dataset of that one query. Throws InputError for --query without --dataset, and without a
-// model.
-Dataset ReadQuery(const QueryArguments& arguments);
 
 }  // namespace ridgeline

@@ -8,11 +8,12 @@
 #include <utility>
 
 #include "base/error.h"
-#include "cli/query_input.h"
+#include "input/query_request.h"
 #include "input/dataset.h"
 #include "input/picture_input.h"
 #include "input/prior_pose.h"
 #include "input/world.h"
+#include "track/gyroscope.h"
 
 namespace ridgeline {
 namespace {
@@ -78,7 +79,10 @@ std::vector<int> ReadingOfFrames(const std::vector<SensorReading>& readings,
 }
 
 void StartFromSensors(const std::string& file, const SensorOptions& options, SequenceInput& input) {
-  const std::vector<SensorReading> readings = ReadSensors(file);
+  std::vector<SensorReading> readings = ReadSensors(file);
+  if (options.attitude == "gyroscope") {
+    readings = IntegrateGyroscope(std::move(readings), options, file);
+  }
   const std::vector<int> reading_of = ReadingOfFrames(readings, *input.source);
   SensorPriors priors(input.model->crs, options);
   const auto terrain = [&](const Eigen::Vector2d& world) { return TerrainHeight(input, world); };

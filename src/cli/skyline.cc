@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/skyline.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -8,6 +10,7 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "cli/command.h"
+#include "cli/out_folder.h"
 #include "cli/progress.h"
 #include "cli/sequence_input.h"
 #include "cli/skyline_output.h"
@@ -16,7 +19,9 @@
 #include "report/html_report.h"
 #include "report/overlay.h"
 #include "report/overlay_layers.h"
+#include "report/overlay_scale.h"
 #include "report/picture_file.h"
+#include "skyline/skyline_file.h"
 #include "track/skyline_tracker.h"
 
 namespace ridgeline {
@@ -28,6 +33,7 @@ struct SkylineArguments {
   SequenceArguments sequence;
   ConfigArguments config;
   std::string out;
+  std::string skylines;
   std::string video;
   std::string report;
   bool overlays = false;
@@ -78,11 +84,21 @@ class Writer {
     overlay.layers.insert(overlay.layers.end(), after.begin(), after.end());
     overlay.caption = result.id + ": " + result.status;
     const cv::Mat drawn = DrawOverlay(picture, overlay, OverlayDrawOptions{});
-    if (video_) video_->Add(drawn);
+    if (video_) video_->Add(FilmFrame(drawn, picture.rows));
     if (arguments_.overlays) WritePicture(drawn, folder_ / (result.id + "_overlay.jpg"));
   }
 
  private:
+  // All of one size, whatever a frame's legend takes: the photo and two rows of names.
+  static cv::Mat FilmFrame(const cv::Mat& drawn, int photo_rows) {
+    const cv::Size photo(drawn.cols, photo_rows);
+    const int rows = photo_rows + static_cast<int>(std::lround(50.0 * OverlayScale(photo)));
+    cv::Mat frame(rows, drawn.cols, CV_8UC3, cv::Scalar::all(32));
+    const int shared = std::min(rows, drawn.rows);
+    drawn.rowRange(0, shared).copyTo(frame.rowRange(0, shared));
+    return frame;
+  }
+
   std::vector<OverlayLayer> LayersBefore(const SkylineFrameResult& result,
                                          const SkylineFrame& frame,
                                          const PinholeCamera& camera) const {
@@ -110,9 +126,33 @@ class Writer {
   std::unique_ptr<OverlayVideo> video_;
 };
 
+// The skyline that another program found in a frame; nullopt: none is asked for. Throws InputError if
+// the folder has none.
+std::optional<Skyline> GivenSkyline(const SkylineArguments& arguments,
+                                    const SequenceFrame& known,
+                                    const cv::Mat& picture) {
+  if (arguments.track.extractor != "file") return std::nullopt;
+  const std::optional<fs::path> file = SkylineFileOf(arguments.skylines, known.id);
+  if (!file) {
+    throw InputError(arguments.skylines,
+                     known.id,
+                     "no skyline of this frame",
+                     known.id + ".png (sky mask) or " + known.id + ".csv");
+  }
+  CameraIntrinsics camera{"SIMPLE_PINHOLE", picture.cols, picture.rows, {}};
+  camera.params = {1.0 * picture.cols, 0.5 * picture.cols, 0.5 * picture.rows};
+  return ReadSkylineFile(*file, known.camera.value_or(camera));
+}
+
 // Extraction alone, for frames without a model or a start.
-SkylineFrame ExtractOnly(const cv::Mat& picture, const SkylineTrackOptions& options) {
+SkylineFrame ExtractOnly(const cv::Mat& picture,
+                         const SkylineTrackOptions& options,
+                         const std::optional<Skyline>& given) {
   SkylineFrame frame;
+  if (given) {
+    frame.skyline = *given;
+    return frame;
+  }
   frame.skyline = options.extractor == "canny" ? ExtractCannySkyline(picture, options.canny)
                                                : ExtractSkyline(picture, options.skyline);
   return frame;
@@ -173,11 +213,12 @@ std::vector<SkylineFrameResult> Track(SequenceInput& input,
     } else {
       SkylineFrame frame;
       PinholeCamera camera;
+      const std::optional<Skyline> given = GivenSkyline(arguments, known, picture);
       if (tracker && known.camera && known.start) {
         camera = known.camera->Pinhole();
         Pose start = *known.start;
         start.center_in_world -= input.model->origin_in_world;
-        frame = tracker->Track(picture, camera, start);
+        frame = tracker->Track(picture, camera, start, given ? &*given : nullptr);
         result = ResultOf(frame, known, input.model->origin_in_world);
         if (known.truth) {
           Pose truth = *known.truth;
@@ -185,7 +226,7 @@ std::vector<SkylineFrameResult> Track(SequenceInput& input,
           result.at_truth = tracker->DistancesAt(frame.skyline, camera, truth);
         }
       } else {
-        frame = ExtractOnly(picture, arguments.track);
+        frame = ExtractOnly(picture, arguments.track, given);
         result.status = tracker ? "missing_sensors" : "extracted";
         result.reason = !tracker ? "" : known.camera ? known.missing : "no camera";
       }
@@ -280,10 +321,22 @@ std::string CommandOf(const SkylineArguments& arguments) {
   return command + " --out " + arguments.out;
 }
 
+// Of a file that is to be written; empty for none.
+fs::path FolderOf(const fs::path& file) {
+  return file.empty() ? fs::path() : fs::absolute(file).lexically_normal().parent_path();
+}
+
 int RunSkyline(SkylineArguments& arguments, const Context& context) {
   ApplyConfig(arguments.config, [&](OptionVisitor& v) { arguments.Visit(v); });
   arguments.track.Validate();
   arguments.sensors.Validate();
+  if ((arguments.track.extractor == "file") == arguments.skylines.empty()) {
+    throw InputError("--skylines",
+                     "",
+                     arguments.skylines.empty() ? "nothing" : arguments.skylines,
+                     arguments.skylines.empty() ? "a folder, for extractor=file"
+                                                : "--set extractor=file with it");
+  }
   if (!arguments.video.empty() && fs::path(arguments.video).extension() != ".mp4") {
     throw InputError("--video", "", '"' + arguments.video + '"', "a name ending in .mp4");
   }
@@ -297,7 +350,10 @@ int RunSkyline(SkylineArguments& arguments, const Context& context) {
   for (const std::string& note : input->notes) context.Note(note);
   for (const std::string& warning : input->warnings) context.Warn(warning);
 
-  if (!arguments.report.empty()) TemporaryBeside(arguments.report);  // fails before the work
+  // Fails before the work; the folder of the frames comes to its place after it.
+  const fs::path report_folder = FolderOf(arguments.report);
+  const bool beside_frames = report_folder == FolderOf(out / "frames.csv");
+  const OutFolder made("--report", beside_frames ? fs::path() : report_folder);
   const fs::path temporary = TemporaryBeside(out);
   fs::create_directory(temporary);
   std::optional<SkylineReport> report;
@@ -334,12 +390,18 @@ void AddSkylineCommand(CLI::App& app, Context& context) {
       {"skyline",
        "Corrects the poses of frames by matching the skyline; without a model, extracts it.",
        "ridgeline skyline --dataset walk/dataset.json --sensors walk/sensors.csv --out poses\n"
-       "ridgeline skyline --frames walk.mp4 --model city.gml --dtm dtm.tif --camera cam.json \\\n"
-       "    --sensors walk.csv --set match.method=2x2d --out poses --video overlay.mp4"},
+       "ridgeline skyline --dataset walk/dataset.json --sensors walk/sensors.csv \\\n"
+       "    --set match.method=2x2d --out poses_2x2d --video overlay.mp4 --report poses.html"},
       [arguments](Context& c) { return RunSkyline(*arguments, c); });
   AddSequenceOptions(*command, arguments->sequence);
   command->add_option("--out", arguments->out, "Folder for frames.csv and the rest")
       ->required()
+      ->type_name("DIR");
+  command
+      ->add_option("--skylines",
+                   arguments->skylines,
+                   "Folder of skylines by another program (ID.png masks or ID.csv), for "
+                   "extractor=file")
       ->type_name("DIR");
   command->add_option("--video", arguments->video, "Name of an overlay video in it (.mp4)");
   command->add_option("--report", arguments->report, "HTML report that opens offline")

@@ -193,12 +193,15 @@ void OverlayVideo::Add(const cv::Mat& bgr) {
     // Encoders want even sizes.
     impl_->size = {static_cast<int>(bgr.cols * scale) / 2 * 2,
                    static_cast<int>(bgr.rows * scale) / 2 * 2};
-    impl_->writer.open(impl_->path.string(),
-                       cv::VideoWriter::fourcc('m', 'p', '4', 'v'),
-                       impl_->frames_per_second,
-                       impl_->size);
+    // H.264 is what browsers play; without its encoder MPEG-4 part 2, which players do.
+    for (const int codec : {cv::VideoWriter::fourcc('a', 'v', 'c', '1'),
+                            cv::VideoWriter::fourcc('m', 'p', '4', 'v')}) {
+      if (impl_->writer.isOpened()) break;
+      impl_->writer.open(impl_->path.string(), codec, impl_->frames_per_second, impl_->size);
+    }
     if (!impl_->writer.isOpened()) {
-      throw InputError(impl_->path.string(), "", "no encoder for MPEG-4", "OpenCV with FFmpeg");
+      throw InputError(
+          impl_->path.string(), "", "no encoder for H.264 or MPEG-4", "OpenCV with FFmpeg");
     }
   }
   cv::Mat fitted = bgr;

@@ -163,6 +163,7 @@ void SkylineReport::AddPicture(std::size_t frame,
 ReportData SkylineReport::Make(const std::vector<SkylineFrameResult>& frames) const {
   const SkylineSummary summary = Summarize(frames);
   ReportData data;
+  data.is_study = true;
   data.right_text = "frames within 2° of the true attitude";
   data.facts = {{"frames", std::to_string(summary.frames)},
                 {"matched", std::to_string(summary.matched)}};

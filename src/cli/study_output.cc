@@ -22,6 +22,12 @@ fs::path MakeFolder(const fs::path& folder) {
   return folder;
 }
 
+// As pixels and as SVG; `stem` is a path without extension.
+void WriteDrawing(const Drawing& drawing, const fs::path& stem) {
+  WritePicture(drawing.Picture(), stem.string() + ".png");
+  WriteFileAtomically(stem.string() + ".svg", drawing.Svg());
+}
+
 void WriteGeoTiff(const EnergyMap& map, int epsg, const fs::path& path) {
   WriteEnergyMap({map.first, map.spacing_m, map.columns, map.rows, map.energies}, epsg, path);
 }
@@ -44,23 +50,23 @@ void WriteStudy(const StudyResults& results, int epsg, const fs::path& folder) {
     const std::string name = FileNameOf(names.dataset.queries[study.query].id + "_" + score.name);
     WriteFileAtomically(maps / (name + ".csv"), MapCsv(study.map));
     WriteGeoTiff(study.map, epsg, maps / (name + ".tif"));
-    WritePicture(MapPicture(names, study), maps / (name + ".png"));
+    WriteDrawing(MapPicture(names, study), maps / name);
     if (!explored) continue;
     WriteFileAtomically(exploration / (name + ".csv"), ExploredCsv(*study.explored, score));
     WriteGeoTiff(study.explored->map, epsg, exploration / (name + ".tif"));
-    WritePicture(ExploredPicture(names, study), exploration / (name + ".png"));
+    WriteDrawing(ExploredPicture(names, study), exploration / name);
   }
   for (std::size_t s = 0; s < names.scores.size(); ++s) {
-    WritePicture(ScatterPicture(names, results.studies, s, results.options.classes),
-                 folder / FileNameOf("score_against_error_" + names.scores[s].name + ".png"));
+    WriteDrawing(ScatterPicture(names, results.studies, s, results.options.classes),
+                 folder / FileNameOf("score_against_error_" + names.scores[s].name));
   }
   if (results.varied.empty()) return;
   WriteFileAtomically(folder / "sensitivity.csv", SensitivityCsv(names, results.varied));
   WriteFileAtomically(folder / "sensitivity_summary.csv",
                       SensitivitySummaryCsv(names, results.levels));
   for (std::size_t v = 0; v < names.variations.size(); ++v) {
-    WritePicture(SensitivityPicture(names, results.levels, v),
-                 folder / ("sensitivity_" + names.variations[v].name + ".png"));
+    WriteDrawing(SensitivityPicture(names, results.levels, v),
+                 folder / ("sensitivity_" + names.variations[v].name));
   }
 }
 

@@ -35,7 +35,13 @@ struct SynthArguments {
   std::string layout;
   TownDatasetOptions options;
   int walk_frames = 0;
-  WalkOptions walk;
+  int drive_frames = 0;
+  int flight_frames = 0;
+
+  int Frames() const { return walk_frames + drive_frames + flight_frames; }
+  WalkOptions Walk() const {
+    return drive_frames > 0 ? DriveDefaults() : flight_frames > 0 ? FlightDefaults() : WalkOptions();
+  }
 };
 
 void ParseSize(const std::string& size, int& width, int& height) {
@@ -68,7 +74,7 @@ void Commit(const fs::path& temporary, const fs::path& out) {
 void RefuseTownPictures(const TownDatasetOptions& options) {
   const TownDatasetOptions defaults;
   const auto refuse = [](const char* option) {
-    throw InputError(option, "", "pictures of a town beside --walk", "one of the two");
+    throw InputError(option, "", "pictures of a town beside those of a film", "one of the two");
   };
   if (options.street != defaults.street) refuse("--queries");
   if (options.tilted != defaults.tilted) refuse("--tilted");
@@ -106,8 +112,8 @@ void RefuseBlocksBesideBuildings(const std::vector<std::string>& assignments) {
 
 int RunSynth(SynthArguments& arguments, const Context& context) {
   TownDatasetOptions& options = arguments.options;
-  WalkOptions& walk = arguments.walk;
-  const bool is_walk = arguments.walk_frames > 0;
+  WalkOptions walk = arguments.Walk();
+  const bool is_walk = arguments.Frames() > 0;
   if (is_walk) RefuseTownPictures(options);
   if (!arguments.size.empty()) {
     ParseSize(arguments.size,
@@ -123,7 +129,7 @@ int RunSynth(SynthArguments& arguments, const Context& context) {
   const bool is_egeniouss = !arguments.layout.empty();
   if (is_egeniouss) ChooseEgeniouss(options);
   walk.town = options.town;
-  walk.frames = arguments.walk_frames;
+  walk.frames = arguments.Frames();
   for (const std::string& assignment : arguments.set) {
     SetOption(assignment, [&](OptionVisitor& v) { is_walk ? walk.Visit(v) : options.Visit(v); });
   }
@@ -161,6 +167,11 @@ int RunSynth(SynthArguments& arguments, const Context& context) {
     context.Print("Next: ridgeline convert " + arguments.out + " --out DATASET.json");
   } else if (is_walk) {
     const fs::path sensors = fs::path(arguments.out) / "sensors.csv";
+    if (arguments.walk_frames == 0) {
+      context.Print("Next: ridgeline track " + dataset.string() + " --odometry " +
+                    (fs::path(arguments.out) / "odometry.csv").string() + " --out DIR");
+      return kExitOk;
+    }
     context.Print("Next: ridgeline skyline --dataset " + dataset.string() + " --sensors " +
                   sensors.string() + " --out DIR");
   } else if (summary.pictures > 0) {
@@ -179,7 +190,9 @@ void AddSynthCommand(CLI::App& app, Context& context) {
                                   "Invents a town: CityGML, DTM and pictures with exact poses.",
                                   "ridgeline synth --out town --seed 7 --queries 20\n"
                                   "ridgeline synth --out big --buildings 100000 --queries 0\n"
-                                  "ridgeline synth --out walk --walk 60"},
+                                  "ridgeline synth --out walk --walk 60\n"
+                                  "ridgeline synth --out drive --drive 60 --set "
+                                  "gnss.spoof_from_s=10"},
                                  [arguments](Context& c) { return RunSynth(*arguments, c); });
   TownDatasetOptions& options = arguments->options;
   command->add_option("--out", arguments->out, "Folder to make")->required()->type_name("DIR");
@@ -191,12 +204,21 @@ void AddSynthCommand(CLI::App& app, Context& context) {
   command->add_option("--drone", options.drone, "Pictures from a drone")->capture_default_str();
   command->add_option("--walk", arguments->walk_frames, "Instead: frames of a hand-held walk")
       ->type_name("FRAMES");
+  command->add_option("--drive", arguments->drive_frames, "Instead: frames of a car's camera")
+      ->excludes("--walk")
+      ->type_name("FRAMES");
+  command->add_option("--flight", arguments->flight_frames, "Instead: frames of a drone's camera")
+      ->excludes("--walk")
+      ->excludes("--drive")
+      ->type_name("FRAMES");
   command
       ->add_option("--layout", arguments->layout, "Upright pictures in another benchmark's folders")
       ->check(CLI::IsMember(std::vector<std::string>{kEgeniouss}))
       ->excludes("--walk")
+      ->excludes("--drive")
+      ->excludes("--flight")
       ->type_name("NAME");
-  command->add_option("--size", arguments->size, "Size of the pictures [1280x960; walk 640x480]")
+  command->add_option("--size", arguments->size, "Size of the pictures [1280x960; walk 640x480, drive 1280x720]")
       ->type_name("WxH");
   command->add_option(
       "--buildings", arguments->buildings, "About so many buildings, in tiles if many");

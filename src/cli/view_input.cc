@@ -9,6 +9,8 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/json_input.h"
+#include "camera/check_pose.h"
 #include "city/crs.h"
 #include "input/picture_input.h"
 #include "input/prior_pose.h"
@@ -37,7 +39,7 @@ std::vector<double> CommaNumbers(const std::string& text) {
 // A pose file: "position" and "cam_from_world_wxyz", at the top or in "pose"; its "crs" becomes the
 // dataset's.
 Pose ReadPoseFile(const fs::path& path, Dataset& dataset) {
-  const nlohmann::json json = nlohmann::json::parse(ReadFile(path), nullptr, false);
+  const nlohmann::json json = ParseJson(ReadFile(path), path.string());
   const nlohmann::json& pose = json.is_object() && json.contains("pose") ? json["pose"] : json;
   const auto numbers = [&](const char* key, std::size_t count) {
     const auto it = pose.is_object() ? pose.find(key) : pose.end();
@@ -62,7 +64,8 @@ Pose ReadPoseFile(const fs::path& path, Dataset& dataset) {
   }
   Pose result;
   result.center_in_world = {position[0], position[1], position[2]};
-  result.cam_from_world = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
+  CheckPlace(result.center_in_world, path.string(), "position");
+  result.cam_from_world = UnitQuaternion(q, path.string(), "cam_from_world_wxyz");
   return result;
 }
 
@@ -73,8 +76,13 @@ Pose ParsePose(const std::string& text, Dataset& dataset) {
     throw InputError(
         "--pose", "", "\"" + text + "\"", "east,north,height,heading,pitch,roll or a pose file");
   }
+  for (std::size_t i = 3; i < values.size(); ++i) {
+    if (std::abs(values[i]) <= 360.0) continue;
+    throw InputError("--pose", "", "\"" + text + "\"", "angles in degrees, -360 to 360");
+  }
   Pose pose;
   pose.center_in_world = {values[0], values[1], values[2]};
+  CheckPlace(pose.center_in_world, "--pose", "");
   pose.cam_from_world = CamFromWorld(ViewAngles{values[3], values[4], values[5]});
   return pose;
 }

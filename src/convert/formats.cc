@@ -11,6 +11,7 @@
 #include "convert/angle_table.h"
 #include "convert/colmap_model.h"
 #include "convert/dataset_json.h"
+#include "convert/doubts.h"
 #include "convert/egeniouss.h"
 #include "convert/globe_files.h"
 #include "convert/lod_loc.h"
@@ -165,6 +166,7 @@ Dataset ReadInput(const fs::path& path, const std::string& format, const Convert
   Dataset dataset = Readers().at(known)(path, options);
   dataset.file = path;
   NameQueries(dataset, path.string());
+  CheckPoses(dataset);
   for (Query& query : dataset.queries) {
     if (!query.camera) query.camera = options.camera;
   }

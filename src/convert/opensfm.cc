@@ -7,6 +7,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/json_input.h"
 #include "city/crs.h"
 #include "convert/topocentric.h"
 
@@ -37,7 +38,7 @@ struct Node {
   double Number(const std::string& key) const {
     const auto it = json.find(key);
     if (it == json.end() || !it->is_number()) {
-      Fail(key, it == json.end() ? "nothing" : it->dump(), "a number");
+      Fail(key, it == json.end() ? "nothing" : JsonText(*it), "a number");
     }
     return it->get<double>();
   }
@@ -47,7 +48,7 @@ struct Node {
   std::string Text(const std::string& key) const {
     const auto it = json.find(key);
     if (it == json.end() || !it->is_string()) {
-      Fail(key, it == json.end() ? "nothing" : it->dump(), "a text");
+      Fail(key, it == json.end() ? "nothing" : JsonText(*it), "a text");
     }
     return it->get<std::string>();
   }
@@ -56,7 +57,7 @@ struct Node {
     const bool valid =
         it != json.end() && it->is_array() && it->size() == 3 &&
         std::all_of(it->begin(), it->end(), [](const Json& v) { return v.is_number(); });
-    if (!valid) Fail(key, it == json.end() ? "nothing" : it->dump(), "three numbers");
+    if (!valid) Fail(key, it == json.end() ? "nothing" : JsonText(*it), "three numbers");
     return {(*it)[0].get<double>(), (*it)[1].get<double>(), (*it)[2].get<double>()};
   }
 };
@@ -132,13 +133,7 @@ void ReadReconstruction(const Node& node, const Crs& crs, Dataset& dataset) {
 
 Dataset ReadOpenSfm(const fs::path& file, const ConvertOptions& options) {
   const std::string name = file.string();
-  Json json;
-  try {
-    json = Json::parse(ReadFile(file));
-  } catch (const Json::exception& e) {
-    throw InputError(
-        name, "", std::string("text that is not JSON (") + e.what() + ")", "valid JSON");
-  }
+  const Json json = ParseJson(ReadFile(file), name);
   if (!json.is_array() || json.empty()) {
     throw InputError(name, "", json.type_name(), "a list of reconstructions [ ... ]");
   }

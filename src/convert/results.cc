@@ -8,6 +8,8 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/json_input.h"
+#include "camera/check_pose.h"
 #include "convert/text_lines.h"
 
 namespace ridgeline {
@@ -74,7 +76,7 @@ void ReadPosesText(const fs::path& file, const ConvertOptions& options, Dataset&
 }
 
 void ReadPoseJson(const fs::path& file, Dataset& dataset) {
-  const Json json = Json::parse(ReadFile(file), nullptr, false);
+  const Json json = ParseJson(ReadFile(file), file.string());
   const auto fail = [&](const char* field, const char* expected) {
     throw InputError(file.string(), field, "nothing usable", expected);
   };
@@ -96,11 +98,11 @@ void ReadPoseJson(const fs::path& file, Dataset& dataset) {
   if (json.contains("crs") && json["crs"].is_string() && json["crs"] != "no CRS") {
     dataset.crs = json["crs"].get<std::string>();
   }
-  const std::string picture = json.value("picture", "");
-  Add(fs::path(picture).stem().string(),
-      picture,
-      Pose{Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized(), {p[0], p[1], p[2]}},
-      dataset);
+  const auto named = json.find("picture");
+  const std::string picture =
+      named != json.end() && named->is_string() ? named->get<std::string>() : "";
+  const Pose found{UnitQuaternion(q, file.string(), "cam_from_world_wxyz"), {p[0], p[1], p[2]}};
+  Add(fs::path(picture).stem().string(), picture, found, dataset);
 }
 
 }  // namespace

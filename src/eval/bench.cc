@@ -6,6 +6,8 @@
 
 #include "base/error.h"
 #include "eval/pose_json.h"
+#include "eval/run_folder.h"
+#include "eval/run_json.h"
 #include "lines/segments_file.h"
 
 namespace ridgeline {
@@ -68,8 +70,9 @@ RunRecord RecordOf(const Query& query, int seed, const Localization& localizatio
   record.confidence = localization.confidence;
   record.pose = localization.pose;
   record.posterior_mass = localization.posterior_mass;
-  record.explained = localization.goodness.explained();
-  record.observed_nat = localization.goodness.observed;
+  const bool is_judged = localization.goodness.is_known() || std::isfinite(localization.energy);
+  record.explained = is_judged ? localization.goodness.explained() : NAN;
+  record.observed_nat = is_judged ? localization.goodness.observed : NAN;
   record.above_background_nat = localization.above_background;
   if (!localization.modes.empty() && query.truth) {
     record.candidate_error = ErrorOf(localization.modes.front().pose, *query.truth);
@@ -91,6 +94,43 @@ RunRecord RecordOf(const Query& query, int seed, const Localization& localizatio
   return record;
 }
 
+std::vector<PlannedRun> PlanRuns(const BenchQueries& queries, const BenchOptions& options) {
+  std::vector<PlannedRun> planned;
+  std::size_t index = 0;
+  for (const std::size_t q : queries.usable()) {
+    for (const int seed : options.seeds) {
+      if (options.shard.Takes(index)) planned.push_back({q, seed, index});
+      ++index;
+    }
+  }
+  return planned;
+}
+
+std::string PieceNameOf(const PlannedRun& planned, const Query& query) {
+  return PieceName(planned.index, query.id + "_" + std::to_string(planned.seed));
+}
+
+BenchRun MakeRun(const PlannedRun& planned,
+                 const BenchQueries& queries,
+                 const Localizer& localizer,
+                 PictureReader& pictures,
+                 int threads) {
+  const Query& query = queries.dataset().queries[planned.query];
+  const auto start = std::chrono::steady_clock::now();
+  LocalizationInput input = InputOf(query, localizer.options(), pictures);
+  const SearchStart from = queries.Start(planned.query, planned.seed, localizer);
+  input.prior = from.prior;
+  BenchRun run;
+  run.query = planned.query;
+  run.prior = from.prior;
+  run.ranges = from.ranges;
+  run.localization = localizer.Localize(input, from.ranges, planned.seed, threads);
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  run.record = RecordOf(query, planned.seed, run.localization, seconds);
+  return run;
+}
+
 std::vector<BenchRun> RunBench(const BenchQueries& queries,
                                const Localizer& localizer,
                                const BenchOptions& options,
@@ -98,25 +138,19 @@ std::vector<BenchRun> RunBench(const BenchQueries& queries,
   PictureReader own_pictures;
   PictureReader& pictures = options.pictures != nullptr ? *options.pictures : own_pictures;
   std::vector<BenchRun> runs;
-  const std::size_t total = queries.usable().size() * options.seeds.size();
-  for (const std::size_t q : queries.usable()) {
-    const Query& query = queries.dataset().queries[q];
-    for (const int seed : options.seeds) {
-      const auto start = std::chrono::steady_clock::now();
-      LocalizationInput input = InputOf(query, localizer.options(), pictures);
-      const SearchStart from = queries.Start(q, seed, localizer);
-      input.prior = from.prior;
-      BenchRun run;
-      run.query = q;
-      run.prior = from.prior;
-      run.ranges = from.ranges;
-      run.localization = localizer.Localize(input, from.ranges, seed, options.threads);
-      const double seconds =
-          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-      run.record = RecordOf(query, seed, run.localization, seconds);
-      runs.push_back(std::move(run));
-      if (progress) progress(runs.back(), runs.size(), total);
+  const std::vector<PlannedRun> plan = PlanRuns(queries, options);
+  for (const PlannedRun& planned : plan) {
+    const Query& query = queries.dataset().queries[planned.query];
+    const std::string piece = PieceNameOf(planned, query);
+    const std::optional<std::string> kept =
+        options.folder != nullptr ? options.folder->Find(piece) : std::nullopt;
+    if (kept) {
+      runs.push_back(ReadRun(*kept, query, planned.query, piece));
+    } else {
+      runs.push_back(MakeRun(planned, queries, localizer, pictures, options.threads));
+      if (options.folder != nullptr) options.folder->Keep(piece, RunText(runs.back()));
     }
+    if (progress) progress(runs.back(), runs.size(), plan.size());
   }
   return runs;
 }

@@ -5,12 +5,14 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <span>
 #include <sstream>
 #include <vector>
 
 #include "base/atomic_file.h"
 #include "base/decimals.h"
 #include "base/error.h"
+#include "camera/check_pose.h"
 #include "eval/csv_text.h"
 #include "eval/egeniouss_metrics.h"
 
@@ -62,6 +64,14 @@ Json JsonOf(const Summary& summary, const Protocol& protocol) {
   json["rotation_error_deg"] = has_truth ? JsonOf(summary.rotation_deg) : Json();
   json["abstained"] = summary.abstained.share;
   json["abstained_ci95"] = JsonOf(summary.abstained)["ci95"];
+  if (summary.searched == 0) {
+    json["with_energy"] = summary.judged;
+    for (const char* key : {"doubtful", "confidence_0.9", "coverage_95", "seconds_per_query",
+                            "pose_evaluations_per_second"}) {
+      json[key] = nullptr;
+    }
+    return json;
+  }
   json["doubtful"] = JsonOf(summary.doubtful);
   json["confidence_0.9"] = JsonOf(summary.confident);
   json["confidence_0.9"]["recall_2m_2deg"] =
@@ -117,7 +127,11 @@ std::string ResultsCsv(std::span<const RunRecord> runs) {
     } else {
       csv << ",,,";
     }
-    csv << run.evaluations << ',' << CsvNumber(run.seconds, 3) << '\n';
+    if (run.is_searched) {
+      csv << run.evaluations << ',' << CsvNumber(run.seconds, 3) << '\n';
+    } else {
+      csv << ",\n";
+    }
   }
   return csv.str();
 }
@@ -217,8 +231,10 @@ std::map<std::string, Pose> ReadPosesCsv(const std::filesystem::path& path) {
     }
     Pose pose;
     pose.center_in_world = {values[0], values[1], values[2]};
+    const std::string place = "line " + std::to_string(number);
+    CheckPlace(pose.center_in_world, path.string(), place);
     pose.cam_from_world =
-        Eigen::Quaterniond(values[3], values[4], values[5], values[6]).normalized();
+        UnitQuaternion(std::span(values).subspan(3), path.string(), place + ": qw,qx,qy,qz");
     poses[fields[columns[0]]] = pose;
   }
   if (poses.empty()) throw InputError(path.string(), "", "no pose", "one line per query");

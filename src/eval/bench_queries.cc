@@ -121,6 +121,25 @@ void BenchQueries::ChooseUsable() {
                    own ? "priors, --protocol or --perturb" : "a truth to draw priors around");
 }
 
+void BenchQueries::Choose(const std::vector<std::string>& ids,
+                          const std::vector<std::string>& sets) {
+  const std::vector<std::size_t> chosen = ChooseQueries(dataset_, ids, sets);
+  std::vector<std::size_t> usable;
+  for (const std::size_t q : chosen) {
+    const bool is_usable = std::find(usable_.begin(), usable_.end(), q) != usable_.end();
+    if (is_usable) usable.push_back(q);
+    if (is_usable || ids.empty()) continue;
+    throw InputError("--query",
+                     "",
+                     "\"" + dataset_.queries[q].id + "\"",
+                     "a query with what protocol " + protocol_.name + " needs of it");
+  }
+  if (usable.empty()) {
+    throw InputError("--set-name", "", "sets without a query that can be run", "another set");
+  }
+  usable_ = std::move(usable);
+}
+
 void BenchQueries::MeasureHeights() {
   above_terrain_.resize(truths_.size());
   Dataset places = dataset_;
@@ -185,6 +204,40 @@ SearchStart BenchQueries::Start(std::size_t query,
     return start;
   }
   return DrawStart(protocol_, *truth, context, seed, of.id);
+}
+
+std::vector<std::size_t> ChooseQueries(const Dataset& dataset,
+                                       const std::vector<std::string>& ids,
+                                       const std::vector<std::string>& sets) {
+  const auto holds = [](const std::vector<std::string>& list, const std::string& name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+  };
+  std::vector<std::string> known_sets;
+  for (const Query& query : dataset.queries) {
+    if (!query.set.empty() && !holds(known_sets, query.set)) known_sets.push_back(query.set);
+  }
+  for (const std::string& id : ids) FindQuery(dataset, id, "--query");
+  for (const std::string& set : sets) {
+    if (holds(known_sets, set)) continue;
+    const std::string nearest = NearestName(set, known_sets);
+    throw InputError("--set-name",
+                     "",
+                     "\"" + set + "\"",
+                     nearest.empty() ? "nothing: the queries of " + dataset.file.string() +
+                                           " have no sets"
+                                     : "a set of " + dataset.file.string() + ", e.g. \"" +
+                                           nearest + "\"");
+  }
+  std::vector<std::size_t> chosen;
+  for (std::size_t q = 0; q < dataset.queries.size(); ++q) {
+    const Query& query = dataset.queries[q];
+    const bool of_ids = ids.empty() || holds(ids, query.id);
+    if (of_ids && (sets.empty() || holds(sets, query.set))) chosen.push_back(q);
+  }
+  if (chosen.empty()) {
+    throw InputError("--query", "", "no query that is of these sets, too", "ids of --set-name");
+  }
+  return chosen;
 }
 
 std::vector<Eigen::Vector2d> PlacesOf(const Dataset& dataset) {

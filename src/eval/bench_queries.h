@@ -29,6 +29,11 @@ class BenchQueries {
                const PoseSpaceOptions& configured,
                std::vector<Eigen::Vector2d> places = {});
 
+  // Leaves only queries of these ids, and of these sets; an empty list leaves all. The others still
+  // count in what a protocol draws of the whole set. Throws InputError for an id or a set that is
+  // none, with the nearest, for a query that cannot be run, and if none is left.
+  void Choose(const std::vector<std::string>& ids, const std::vector<std::string>& sets);
+
   const Protocol& protocol() const { return protocol_; }
   // Queries with the cameras that the search is given, and the truths that its answers are judged
   // by: none where no answer is right.
@@ -56,6 +61,12 @@ class BenchQueries {
   std::vector<Eigen::Vector2d> places_;
   std::vector<std::size_t> usable_;
 };
+
+// Indices of the queries of these ids and sets; an empty list: all. Throws InputError for an id or
+// a set that is none, with the nearest, and if none is left.
+std::vector<std::size_t> ChooseQueries(const Dataset& dataset,
+                                       const std::vector<std::string>& ids,
+                                       const std::vector<std::string>& sets);
 
 // The places of a dataset's queries [world: east, north]: of its truths, or else of its priors.
 // Throws InputError if there is none.

@@ -21,4 +21,31 @@ std::string CsvField(const std::string& text) {
   return quoted + "\"";
 }
 
+bool ReadCsvRow(std::istream& stream, std::vector<std::string>& fields) {
+  fields.clear();
+  if (stream.peek() == std::istream::traits_type::eof()) return false;
+  fields.emplace_back();
+  bool quoted = false;
+  for (char c = 0; stream.get(c);) {
+    if (quoted) {
+      if (c != '"') {
+        fields.back() += c;
+      } else if (stream.peek() == '"') {
+        fields.back() += static_cast<char>(stream.get());
+      } else {
+        quoted = false;
+      }
+    } else if (c == '"') {
+      quoted = true;
+    } else if (c == ',') {
+      fields.emplace_back();
+    } else if (c == '\n') {
+      break;
+    } else if (c != '\r') {
+      fields.back() += c;
+    }
+  }
+  return true;
+}
+
 }  // namespace ridgeline

@@ -73,8 +73,12 @@ Summary Summarize(std::span<const RunRecord> runs) {
   std::size_t sure = 0;
   double evaluations = 0.0;
   for (const RunRecord& run : runs) {
-    seconds.push_back(run.seconds);
-    evaluations += static_cast<double>(run.evaluations);
+    if (std::isfinite(run.energy)) ++summary.judged;
+    if (run.is_searched) {
+      ++summary.searched;
+      seconds.push_back(run.seconds);
+      evaluations += static_cast<double>(run.evaluations);
+    }
     if (!run.pose) ++abstained;
     if (run.status == "doubtful") ++doubtful;
     if (run.pose && run.confidence >= 0.9) ++sure;

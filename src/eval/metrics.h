@@ -43,6 +43,8 @@ struct RunRecord {
   std::optional<bool> ellipse_holds_truth;
   std::optional<bool> interval_holds_truth;
   bool has_truth = false;
+  // false: a pose of another system, which says nothing of confidence, evaluations and time.
+  bool is_searched = true;
   std::uint64_t evaluations = 0;
   double seconds = 0.0;
 };
@@ -79,6 +81,8 @@ struct Summary {
   int queries = 0;
   int runs = 0;      // with truth
   int all_runs = 0;  // with or without truth
+  int searched = 0;  // of them, by ridgeline; without any, confidences and times are not known
+  int judged = 0;    // of all, with an energy
   std::array<double, kRecallThresholds.size()> recall{};
   std::array<Interval95, kRecallThresholds.size()> recall_ci95{};
   std::array<double, kRecallThresholds.size()> recall_answered{};

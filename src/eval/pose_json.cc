@@ -152,7 +152,9 @@ std::string RunJson(const Localization& localization,
                     std::uint64_t seed,
                     const std::string& version,
                     const std::string& options_json,
-                    const std::vector<Assumption>& assumptions) {
+                    const std::vector<Assumption>& assumptions,
+                    const std::vector<HashedFile>& inputs,
+                    const std::string& folder) {
   Json json;
   json["version"] = version;
   json["seed"] = seed;
@@ -160,6 +162,12 @@ std::string RunJson(const Localization& localization,
   for (const StageTime& time : localization.times) json["seconds"][time.name] = time.seconds;
   json["assumptions"] = JsonOf(assumptions);
   json["options"] = Json::parse(options_json);
+  json["folder"] = folder;
+  json["inputs"] = Json::array();
+  for (const HashedFile& input : inputs) {
+    json["inputs"].push_back(
+        {{"role", input.role}, {"path", input.path}, {"sha256", input.sha256}});
+  }
   return json.dump(1) + "\n";
 }
 

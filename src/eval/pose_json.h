@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "city/city_model.h"
+#include "eval/provenance.h"
 #include "input/assumption.h"
 #include "localize/localization.h"
 
@@ -23,11 +24,14 @@ std::string PoseJson(const std::string& picture,
                      const CityModel& model,
                      const std::vector<Assumption>& assumptions);
 
-// Stage times, evaluations, seed, version and resolved options (report.json).
+// Stage times, evaluations, seed, version, resolved options and hashed inputs (report.json).
+// @param folder  That the inputs' paths are relative to.
 std::string RunJson(const Localization& localization,
                     std::uint64_t seed,
                     const std::string& version,
                     const std::string& options_json,
-                    const std::vector<Assumption>& assumptions);
+                    const std::vector<Assumption>& assumptions,
+                    const std::vector<HashedFile>& inputs,
+                    const std::string& folder);
 
 }  // namespace ridgeline

@@ -10,6 +10,9 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/json_input.h"
+#include "base/limits.h"
+#include "camera/check_pose.h"
 #include "city/format/web_file.h"
 
 namespace ridgeline {
@@ -60,28 +63,32 @@ class Node {
   }
 
   std::string Text() const {
-    if (!json_.is_string()) Fail(json_.dump(), "a text");
+    if (!json_.is_string()) Fail(JsonText(json_), "a text");
     return json_.get<std::string>();
   }
 
   double Number(double lower = std::numeric_limits<double>::lowest(),
                 double upper = std::numeric_limits<double>::max()) const {
-    if (!json_.is_number()) Fail(json_.dump(), "a number");
+    if (!json_.is_number()) Fail(JsonText(json_), "a number");
     const double value = json_.get<double>();
     if (!(value >= lower && value <= upper)) {
-      Fail(json_.dump(), "a number in [" + Short(lower) + ", " + Short(upper) + "]");
+      Fail(JsonText(json_), "a number in [" + Short(lower) + ", " + Short(upper) + "]");
     }
     return value;
   }
 
   int Integer() const {
-    if (!json_.is_number_integer()) Fail(json_.dump(), "a whole number");
+    const double value = json_.is_number_integer() ? json_.get<double>() : 0.5;
+    constexpr double kMost = std::numeric_limits<int>::max();
+    if (value != std::floor(value) || std::abs(value) > kMost) {
+      Fail(JsonText(json_), "a whole number");
+    }
     return json_.get<int>();
   }
 
   std::vector<double> Numbers(std::size_t count) const {
     std::vector<double> values = Numbers();
-    if (values.size() != count) Fail(json_.dump(), std::to_string(count) + " numbers");
+    if (values.size() != count) Fail(JsonText(json_), std::to_string(count) + " numbers");
     return values;
   }
 
@@ -92,7 +99,7 @@ class Node {
   }
 
   std::vector<Node> List() const {
-    if (!json_.is_array()) Fail(json_.dump(), "a list [ ... ]");
+    if (!json_.is_array()) Fail(JsonText(json_), "a list [ ... ]");
     std::vector<Node> nodes;
     for (std::size_t i = 0; i < json_.size(); ++i) {
       nodes.emplace_back(json_[i], file_, path_ + "[" + std::to_string(i) + "]");
@@ -116,22 +123,7 @@ class Node {
 };
 
 Json ParseFile(const std::filesystem::path& path) {
-  const std::string text = ReadFile(path);
-  try {
-    return Json::parse(text);
-  } catch (const Json::parse_error& e) {
-    constexpr std::size_t kShown = 20;
-    const std::size_t at = e.byte > 0 ? e.byte - 1 : 0;
-    std::string near = text.substr(std::min(at, text.size()), kShown);
-    near.erase(std::min(near.find('\n'), near.size()));
-    throw InputError(
-        path.string(),
-        "byte " + std::to_string(e.byte),
-        near.empty() ? "a file that ends early" : "\"" + near + "\", which is not JSON",
-        "valid JSON (there is no NaN in it)");
-  } catch (const Json::out_of_range&) {
-    throw InputError(path.string(), "", "a number that is too large", "numbers below 1e308");
-  }
+  return ParseJson(ReadFile(path), path.string());
 }
 
 CameraIntrinsics CameraOf(const Node& node) {
@@ -145,6 +137,11 @@ CameraIntrinsics CameraOf(const Node& node) {
   camera.height = node.At("height").Integer();
   camera.params = node.At("params").Numbers();
   camera.Validate(node.file(), node.path());
+  if (std::min(camera.width, camera.height) < limits::kLeastPictureSide) {
+    node.Fail(std::to_string(camera.width) + " x " + std::to_string(camera.height) + " px",
+              "a camera of pictures of " + std::to_string(limits::kLeastPictureSide) +
+                  " px and more on each side");
+  }
   return camera;
 }
 
@@ -162,6 +159,9 @@ PosePrior PriorOf(const Node& node) {
   }
   prior.position_in_world = {values[0], values[1]};
   if (values.size() == 3) prior.height_in_world = values[2];
+  CheckPlace({values[0], values[1], prior.height_in_world.value_or(0.0)},
+             position.file(),
+             position.path());
   if (const auto heading = node.Find("heading_deg")) {
     prior.heading_deg = WrapHeadingDeg(heading->Number(-360.0, 360.0));
   }
@@ -174,16 +174,10 @@ Pose TruthOf(const Node& node) {
   node.AllowOnly({"position", "cam_from_world_wxyz"});
   const std::vector<double> center = node.At("position").Numbers(3);
   const Node rotation = node.At("cam_from_world_wxyz");
-  const std::vector<double> q = rotation.Numbers(4);
   Pose pose;
   pose.center_in_world = {center[0], center[1], center[2]};
-  pose.cam_from_world = {q[0], q[1], q[2], q[3]};
-  constexpr double kUnitTolerance = 1e-3;  // hand-written quaternions have a few digits
-  if (std::abs(pose.cam_from_world.norm() - 1.0) > kUnitTolerance) {
-    rotation.Fail("norm " + std::to_string(pose.cam_from_world.norm()), "a unit quaternion");
-  }
-  constexpr double kRounding = 1e-14;  // a unit quaternion stays as it is written
-  if (std::abs(pose.cam_from_world.norm() - 1.0) > kRounding) pose.cam_from_world.normalize();
+  CheckPlace(pose.center_in_world, node.file(), node.path() + ".position");
+  pose.cam_from_world = UnitQuaternion(rotation.Numbers(4), node.file(), rotation.path());
   return pose;
 }
 

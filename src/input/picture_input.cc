@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <utility>
 
 #include "base/error.h"
 #include "camera/magnetic_declination.h"
@@ -328,7 +329,10 @@ PictureInput CompleteFromPicture(const Dataset& dataset,
       if (!crs) crs = CrsOf(dataset);
       CheckPosition(*query.prior, *crs, dataset.file.string());
     }
-    query.assumptions = AssumptionsOf(*query.prior, options.camera_height_m, dataset.file.string());
+    for (Assumption& assumption :
+         AssumptionsOf(*query.prior, options.camera_height_m, dataset.file.string())) {
+      query.assumptions.push_back(std::move(assumption));
+    }
   }
   if (query.camera && !wants_prior) return {};
   Query asked = query;

@@ -2,15 +2,18 @@
 #include "input/read_picture.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
-#include <vector>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/gdal_handles.h"
+#include "base/limits.h"
+#include "base/regular_file.h"
 #include "camera/picture_camera.h"
 
 namespace ridgeline {
@@ -74,26 +77,61 @@ std::string SizeText(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height) + " px";
 }
 
+// The size that a file's header tells, before anything is unpacked; nullopt for other formats.
+std::optional<cv::Size> SizeInHeader(const std::string& file) {
+  GDALAllRegister();
+  const QuietGdal quiet;
+  const char* const drivers[] = {"JPEG", "PNG", "GTiff", "WEBP", "BMP", nullptr};
+  const GdalDatasetPtr header(
+      GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, drivers));
+  if (header == nullptr) return std::nullopt;
+  return cv::Size(header->GetRasterXSize(), header->GetRasterYSize());
+}
+
+void CheckSize(const std::string& file, const cv::Size& size, std::size_t bytes) {
+  if (std::min(size.width, size.height) < limits::kLeastPictureSide) {
+    throw InputError(
+        file,
+        "size",
+        SizeText(size.width, size.height),
+        "a picture of " + std::to_string(limits::kLeastPictureSide) + " px and more on each side");
+  }
+  const std::int64_t packed =
+      std::max(limits::kPackedPixels, limits::kPixelsPerByte * static_cast<std::int64_t>(bytes));
+  const std::int64_t most = std::min(limits::kPicturePixels, packed);
+  if (std::int64_t{size.width} * size.height <= most) return;
+  throw InputError(file,
+                   "limit",
+                   SizeText(size.width, size.height),
+                   "at most " + std::to_string(most) + " px in a file of " + std::to_string(bytes) +
+                       " bytes (a smaller copy)");
+}
+
+// Empty if it does not decode.
+cv::Mat Decoded(const std::string& bytes) {
+  if (bytes.empty()) return {};
+  const cv::Mat view(1,
+                     static_cast<int>(bytes.size()),
+                     CV_8U,
+                     const_cast<char*>(bytes.data()));  // NOLINT: read only
+  try {
+    return cv::imdecode(view, cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
+  } catch (const cv::Exception&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 cv::Mat ReadPicture(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
-    throw InputError(path.string(), "", "no such file", "a picture");
-  }
+  RequireRegularFile(path, "a picture");
   const std::string bytes = ReadFile(path);
   if (bytes.starts_with("\xff\xd8") && IsCutOff(bytes)) {
     throw InputError(
         path.string(), "", "a JPEG file that ends early", "a whole one (was the copy cut off?)");
   }
-  cv::Mat picture;
-  if (!bytes.empty()) {
-    const cv::Mat view(1,
-                       static_cast<int>(bytes.size()),
-                       CV_8U,
-                       const_cast<char*>(bytes.data()));  // NOLINT: read only
-    picture = cv::imdecode(view, cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
-  }
+  if (const auto size = SizeInHeader(path.string())) CheckSize(path.string(), *size, bytes.size());
+  const cv::Mat picture = Decoded(bytes);
   if (picture.empty()) {
     throw InputError(path.string(),
                      "",
@@ -101,6 +139,7 @@ cv::Mat ReadPicture(const std::filesystem::path& path) {
                      "a picture in JPEG, PNG, TIFF or WebP (a converter that keeps the EXIF makes "
                      "one)");
   }
+  CheckSize(path.string(), picture.size(), bytes.size());
   if (picture.depth() != CV_8U && picture.depth() != CV_16U) {
     throw InputError(path.string(), "", "pixels of another type", "8 or 16 bit integers");
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lines/detector_table.h"
 
-#include <array>
+#include <algorithm>
 
 #include "base/error.h"
 
@@ -12,10 +12,26 @@ extern const DetectorPlugin kEdLinesDetector;
 extern const DetectorPlugin kFldDetector;
 extern const DetectorPlugin kHoughDetector;
 
-std::span<const DetectorPlugin* const> DetectorTable() {
-  static constexpr std::array kTable = {
+namespace {
+
+std::vector<const DetectorPlugin*>& Table() {
+  static std::vector<const DetectorPlugin*> table = {
       &kLsdDetector, &kEdLinesDetector, &kFldDetector, &kHoughDetector};
-  return kTable;
+  return table;
+}
+
+}  // namespace
+
+std::span<const DetectorPlugin* const> DetectorTable() { return Table(); }
+
+void AddDetector(const DetectorPlugin& plugin) {
+  const std::vector<std::string> taken = DetectorNames();
+  if (plugin.name == std::string(kLinesFromFile) ||
+      std::find(taken.begin(), taken.end(), plugin.name) != taken.end()) {
+    throw InputError(
+        "", "detector", "\"" + std::string(plugin.name) + "\" again", "a name of its own");
+  }
+  Table().push_back(&plugin);
 }
 
 std::vector<std::string> DetectorNames() {

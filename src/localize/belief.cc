@@ -24,6 +24,9 @@ constexpr double kMisfit = 0.25;
 constexpr double kRoofGainNat = 3.0;
 // An answer on the border of the box is as likely the nearest place to a truth beyond it.
 constexpr double kOnBorder = 0.5;
+// A score without absolute terms compares the poses of the box with one another: no more is known of
+// its best than that.
+constexpr double kUnjudged = 0.5;
 // Below this the edges are not where they should be.
 constexpr double kExplained = 0.5;
 // Below this the best of the box is a place like others [nat].
@@ -122,7 +125,8 @@ void Believe(const SearchedPoses& found,
   const auto probability = [&](const OutcomeModel& outcome) {
     return outcome.Probability(posterior.mass, result.goodness, result.above_background);
   };
-  result.confidence = result.goodness.is_known() ? probability(options.right) : posterior.mass;
+  result.confidence = result.goodness.is_known() ? probability(options.right)
+                                                 : std::min(posterior.mass, kUnjudged);
   if (IsOnBorder(best.offset, space)) result.confidence *= kOnBorder;
   result.protection.reset();
   if (result.goodness.is_known() && !IsOnBorder(best.offset, space)) {
@@ -131,6 +135,10 @@ void Believe(const SearchedPoses& found,
   }
   const std::vector<std::string> limits = LimitsReached(best.offset, space);
   result.doubts = DoubtsOf(result.goodness, model);
+  if (!result.goodness.is_known()) {
+    result.doubts.push_back("this score compares poses with one another only: whether the best is "
+                            "right is not judged");
+  }
   if (result.above_background && *result.above_background < kStandsOutNat) {
     result.doubts.push_back("places where it cannot be explain the picture about as well");
   }

@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "localize/localizer_options.h"
 
+#include <sstream>
 #include <string>
 
 #include "base/error.h"
 
 namespace ridgeline {
 namespace {
+
+void RequireRange(const char* field, double value, double lowest, double highest) {
+  if (value >= lowest && value <= highest) return;  // false for NaN
+  std::ostringstream found;
+  found << value;
+  std::ostringstream range;
+  range << "[" << lowest << ", " << highest << "]";
+  throw InputError("", field, found.str(), range.str());
+}
 
 void RequirePositive(const char* field, double value) {
   if (!(value > 0.0)) throw InputError("", field, std::to_string(value), "> 0");
@@ -25,11 +35,15 @@ void MapOptions::Visit(OptionVisitor& v) {
 }
 
 void MapOptions::Validate() const {
-  RequirePositive("search.map.spacing_m", spacing_m);
-  RequirePositive("search.map.heading_step_deg", heading_step_deg);
-  RequirePositive("search.map.max_positions", max_positions);
-  RequirePositive("search.map.tilts", tilts);
-  RequirePositive("search.map.modes", modes);
+  RequireRange("search.map.spacing_m", spacing_m, 0.01, 1000.0);
+  RequireRange("search.map.heading_step_deg", heading_step_deg, 0.05, 90.0);
+  RequireRange("search.map.max_positions", max_positions, 1, 1'000'000);
+  RequireRange("search.map.tilts", tilts, 1, 100);
+  RequireRange("search.map.modes", modes, 1, 10'000);
+  // All poses of the map are held in memory.
+  constexpr double kMostPoses = 2e8;
+  const double poses = 360.0 / heading_step_deg * max_positions * tilts;
+  RequireRange("search.map: limit: poses (max_positions, headings, tilts)", poses, 1, kMostPoses);
   RequirePositive("search.map.mode_separation_m", mode_separation_m);
   RequirePositive("search.map.mode_separation_deg", mode_separation_deg);
 }

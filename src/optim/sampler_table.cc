@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "optim/sampler_table.h"
 
-#include <array>
+#include <algorithm>
 
 #include "base/error.h"
 
@@ -19,19 +19,34 @@ extern const SamplerPlugin kNelderMeadSampler;
 extern const SamplerPlugin kGridSampler;
 extern const SamplerPlugin kMultiStartSampler;
 
-std::span<const SamplerPlugin* const> SamplerTable() {
-  static constexpr std::array kTable = {&kRandomSampler,
-                                        &kSobolSampler,
-                                        &kTpeSampler,
-                                        &kMultivariateTpeSampler,
-                                        &kGpSampler,
-                                        &kCmaEsSampler,
-                                        &kDifferentialEvolutionSampler,
-                                        &kGpDeSampler,
-                                        &kNelderMeadSampler,
-                                        &kGridSampler,
-                                        &kMultiStartSampler};
-  return kTable;
+namespace {
+
+std::vector<const SamplerPlugin*>& Table() {
+  static std::vector<const SamplerPlugin*> table = {&kRandomSampler,
+                                                    &kSobolSampler,
+                                                    &kTpeSampler,
+                                                    &kMultivariateTpeSampler,
+                                                    &kGpSampler,
+                                                    &kCmaEsSampler,
+                                                    &kDifferentialEvolutionSampler,
+                                                    &kGpDeSampler,
+                                                    &kNelderMeadSampler,
+                                                    &kGridSampler,
+                                                    &kMultiStartSampler};
+  return table;
+}
+
+}  // namespace
+
+std::span<const SamplerPlugin* const> SamplerTable() { return Table(); }
+
+void AddSampler(const SamplerPlugin& plugin) {
+  const std::vector<std::string> taken = SamplerNames();
+  if (std::find(taken.begin(), taken.end(), plugin.name) != taken.end()) {
+    throw InputError(
+        "", "sampler", "\"" + std::string(plugin.name) + "\" again", "a name of its own");
+  }
+  Table().push_back(&plugin);
 }
 
 std::vector<std::string> SamplerNames() {

@@ -8,6 +8,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/json_input.h"
 
 namespace ridgeline {
 namespace {
@@ -47,7 +48,7 @@ Json TrialToJson(const Trial& trial) {
 }
 
 // Throws nlohmann's exceptions and std::runtime_error; the caller adds file and line.
-Trial TrialFromJson(const Json& json) {
+Trial TrialFromJson(const nlohmann::json& json) {
   Trial trial;
   trial.index = json.at("index").get<std::int64_t>();
   trial.values = json.at("values").get<std::vector<double>>();
@@ -66,22 +67,24 @@ Trial TrialFromJson(const Json& json) {
 }
 
 void CheckHeader(const std::string& line, const std::string& file, const SearchBox& box) {
-  const Json header = Json::parse(line, nullptr, false);
+  const nlohmann::json header = ParseJson(line, file, "line 1");
   if (!header.is_object() || !header.contains("ridgeline_trace")) {
     throw InputError(file, "line 1", "no trace header", "{\"ridgeline_trace\": 1, ...}");
   }
   if (header["ridgeline_trace"] != kVersion) {
-    throw InputError(file, "line 1: ridgeline_trace", header["ridgeline_trace"].dump(), "1");
+    throw InputError(file, "line 1: ridgeline_trace", JsonText(header["ridgeline_trace"]), "1");
   }
-  const Json parameters = header.value("parameters", Json());
-  if (parameters != BoxToJson(box)) {
-    throw InputError(file, "line 1: parameters", parameters.dump(), BoxToJson(box).dump());
+  const nlohmann::json parameters = header.value("parameters", nlohmann::json());
+  if (parameters != nlohmann::json(BoxToJson(box))) {
+    throw InputError(file, "line 1: parameters", JsonText(parameters), BoxToJson(box).dump());
   }
 }
 
 Trial ReadTrial(const std::string& line, const std::string& file, const std::string& place) {
   try {
-    return TrialFromJson(Json::parse(line));
+    return TrialFromJson(ParseJson(line, file, place));
+  } catch (const InputError&) {
+    throw;
   } catch (const std::exception& e) {
     throw InputError(file, place, e.what(), "a trial: index, values, state, energy");
   }

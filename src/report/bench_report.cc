@@ -8,6 +8,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "city/crs.h"
 #include "input/prior_pose.h"
 #include "report/hillshade.h"
 #include "report/overlay_layers.h"
@@ -30,6 +31,21 @@ std::string Text(const char* format, double value) {
 }
 
 std::string Percent(double share) { return Text("%.0f %%", 100.0 * share); }
+
+constexpr Rgb kMisfitColor{255, 30, 30};
+
+// Buildings that have something to say and say the opposite, or whose roofs are off: those that the
+// doubts name (localize/belief.cc).
+std::vector<std::uint32_t> MisfitsOf(const Goodness& goodness) {
+  constexpr double kTellingNat = 4.0;
+  constexpr double kMisfit = 0.25;
+  std::vector<std::uint32_t> buildings;
+  for (const BuildingFit& fit : goodness.buildings) {
+    const bool contradicts = fit.information() > kTellingNat && fit.explained() < kMisfit;
+    if (contradicts || fit.roof_gain > kTellingNat) buildings.push_back(fit.building);
+  }
+  return buildings;
+}
 
 ReportPose PoseOf(const Pose& pose) {
   const ViewAngles angles = ViewAnglesOf(pose.cam_from_world);
@@ -60,26 +76,17 @@ ReportOutcome OutcomeOf(const RunRecord& record) {
   return right ? ReportOutcome::kRight : ReportOutcome::kWrong;
 }
 
-ReportPhoto PhotoOf(const Query& query, PictureReader& pictures) {
-  ReportPhoto photo;
-  photo.name = query.image.filename().string();
-  const cv::Mat picture = UndistortImage(BgrOf(pictures.Read(query)), *query.camera);
-  photo.width = picture.cols;
-  photo.height = picture.rows;
-  const double scale =
-      std::min(1.0, static_cast<double>(kPhotoSidePx) / std::max(picture.cols, picture.rows));
-  cv::resize(picture, photo.picture, {}, scale, scale, cv::INTER_AREA);
-  return photo;
-}
-
 // Box, hillshade and footprints of the ground around the prior.
 void AddGround(const Localizer& localizer, const PoseSpaceOptions& ranges, ReportRun& run) {
   const Vector2d origin = localizer.scene().model().origin_in_world.head<2>();
-  const Vector2d center = run.prior->position.head<2>();
+  if (!run.prior && !run.result) return;
+  const Vector2d center = (run.prior ? run.prior : run.result)->position.head<2>();
   const Vector2d reach(ranges.east_m, ranges.north_m);
   const Vector2d lower = center - reach;
   const Vector2d upper = center + reach;
-  run.search_box = {lower, {upper.x(), lower.y()}, upper, {lower.x(), upper.y()}, lower};
+  if (run.prior) {
+    run.search_box = {lower, {upper.x(), lower.y()}, upper, {lower.x(), upper.y()}, lower};
+  }
 
   const Vector2d margin(kMapMarginM, kMapMarginM);
   const Vector2d from = lower - margin;
@@ -114,15 +121,19 @@ ReportEnergyMap MapOf(const EnergyMap& map) {
 std::vector<std::pair<std::string, std::string>> FactsOf(const BenchRun& run) {
   const Localization& localization = run.localization;
   std::vector<std::pair<std::string, std::string>> facts = {
-      {"status", NameOf(localization.status)},
-      {"energy", Text("%.4f", localization.energy)},
-      {"confidence", Text("%.2f", localization.confidence)},
-      {"poses evaluated", std::to_string(localization.evaluations)},
-      {"time", Text("%.2f s", run.record.seconds)}};
+      {"status", run.is_given ? "of another system" : NameOf(localization.status)}};
+  if (std::isfinite(localization.energy)) {
+    facts.emplace_back("energy", Text("%.4f", localization.energy));
+  }
+  if (!run.is_given) {
+    facts.emplace_back("confidence", Text("%.2f", localization.confidence));
+    facts.emplace_back("poses evaluated", std::to_string(localization.evaluations));
+    facts.emplace_back("time", Text("%.2f s", run.record.seconds));
+  }
   for (const StageTime& stage : localization.times) {
     facts.emplace_back("… " + stage.name, Text("%.2f s", stage.seconds));
   }
-  if (localization.pose) {
+  if (localization.pose && !run.is_given) {
     facts.emplace_back("heading, standard deviation",
                        Text("%.2f°", localization.spread.heading_sigma_deg));
   }
@@ -139,6 +150,60 @@ std::vector<std::pair<std::string, std::string>> FactsOf(const BenchRun& run) {
   for (const std::string& note : localization.notes) facts.emplace_back("note", note);
   for (const std::string& warning : localization.warnings) facts.emplace_back("warning", warning);
   return facts;
+}
+
+// Modes nearer to a better one than this are the same answer to whoever looks at a map.
+constexpr double kSameModeM = 2.0;
+constexpr double kSameModeDeg = 2.0;
+
+std::vector<ReportMode> DistinctModes(const std::vector<PoseMode>& modes) {
+  std::vector<const PoseMode*> distinct;
+  std::vector<ReportMode> report;
+  for (const PoseMode& mode : modes) {  // best first
+    const bool is_same = std::any_of(distinct.begin(), distinct.end(), [&](const PoseMode* other) {
+      const PoseError apart = ErrorOf(mode.pose, other->pose);
+      return apart.translation_m <= kSameModeM && apart.rotation_deg <= kSameModeDeg;
+    });
+    if (is_same) continue;
+    distinct.push_back(&mode);
+    report.push_back({PoseOf(mode.pose), mode.energy});
+  }
+  return report;
+}
+
+const char* ConfidenceWords(double confidence) {
+  if (confidence >= 0.99) return "practically certain";
+  if (confidence >= 0.9) return "very likely";
+  if (confidence >= 0.7) return "likely";
+  if (confidence >= 0.5) return "more likely than not";
+  if (confidence >= 0.2) return "rather unlikely";
+  return "unlikely";
+}
+
+// Status, pose and confidence in words, and where in the world it is.
+void AddHeadline(const BenchRun& run, const Crs& crs, ReportRun& report) {
+  const Localization& found = run.localization;
+  if (!report.result) {
+    report.headline = "No pose. The best candidate is shown where there is one.";
+    return;
+  }
+  const ReportPose& pose = *report.result;
+  std::string text = run.is_given             ? "Pose of another system. "
+                     : found.doubts.empty() ? "Pose found. "
+                                            : "Pose found, with doubts. ";
+  if (!run.is_given) {
+    text += std::string("It is ") + ConfidenceWords(found.confidence) +
+            Text(" (%.2f) that it is within 2\u00a0m and 2° of the truth. ", found.confidence);
+  }
+  text += Text("East %.2f\u00a0m, ", pose.position.x()) +
+          Text("north %.2f\u00a0m, ", pose.position.y()) +
+          Text("height %.2f\u00a0m; ", pose.position.z()) +
+          Text("heading %.1f°, ", pose.heading_deg) + Text("pitch %.1f°, ", pose.pitch_deg) +
+          Text("roll %.1f°.", pose.roll_deg);
+  if (crs.horizontal_epsg != 0) {
+    report.latitude_longitude = LatitudeLongitude(crs, pose.position.head<2>());
+  }
+  report.headline = text;
 }
 
 ReportRun RunOf(const BenchRun& run, const Query& query, const Localizer& localizer) {
@@ -160,20 +225,23 @@ ReportRun RunOf(const BenchRun& run, const Query& query, const Localizer& locali
     report.translation_m = run.record.error->translation_m;
     report.rotation_deg = run.record.error->rotation_deg;
   }
-  report.prior = PoseOf(PriorPoseOf(run, localizer));
+  if (!run.is_given) {
+    report.prior = PoseOf(PriorPoseOf(run, localizer));
+    report.prior->has_heading = run.prior.heading_deg.has_value();
+  }
   if (localization.pose) report.result = PoseOf(*localization.pose);
   if (query.truth) report.truth = PoseOf(*query.truth);
-  for (const PoseMode& mode : localization.modes) {
-    report.modes.push_back({PoseOf(mode.pose), mode.energy});
-  }
-  if (localization.pose) report.position_covariance = localization.spread.position_covariance;
+  report.modes = DistinctModes(localization.modes);
+  AddHeadline(run, localizer.scene().model().crs, report);
+  if (localization.pose && !run.is_given) report.position_covariance = localization.spread.position_covariance;
   if (!localization.map.energies.empty()) report.map = MapOf(localization.map);
   AddGround(localizer, run.ranges, report);
   const PinholeCamera camera = CameraOf(query, localization);
   report.hfov_deg = HorizontalFieldDeg(camera);
   const Overlay overlay = ResultOverlay(localizer, camera, run);
-  report.prior_layers = {overlay.layers.front()};
-  report.result_layers.assign(overlay.layers.begin() + 1, overlay.layers.end());
+  const auto first_of_result = overlay.layers.begin() + (run.is_given ? 0 : 1);
+  report.prior_layers.assign(overlay.layers.begin(), first_of_result);
+  report.result_layers.assign(first_of_result, overlay.layers.end());
   report.evaluations = static_cast<double>(localization.evaluations);
   report.seconds = run.record.seconds;
   report.facts = FactsOf(run);
@@ -204,6 +272,7 @@ void AddSummary(std::span<const BenchRun> runs, const Protocol& protocol, Report
                               Text("%.2f m, ", record.error->translation_m) +
                                   Text("%.2f°", record.error->rotation_deg));
     }
+    if (!record.is_searched) return;
     data.facts.emplace_back("confidence", Text("%.2f", record.confidence));
     data.facts.emplace_back("time", Text("%.2f s", record.seconds));
     data.facts.emplace_back("poses evaluated", Grouped(static_cast<double>(record.evaluations)));
@@ -224,9 +293,14 @@ void AddSummary(std::span<const BenchRun> runs, const Protocol& protocol, Report
     data.facts.emplace_back("confident, 95 % interval", ShareText(summary.confident));
     data.facts.emplace_back("doubtful", Percent(summary.doubtful.share));
   }
-  data.facts.emplace_back("abstained", Percent(summary.abstained.share));
-  data.facts.emplace_back("time per photo", Text("%.2f s", summary.seconds_median));
-  data.facts.emplace_back("poses per second", Grouped(summary.evaluations_per_second));
+  data.facts.emplace_back(summary.searched > 0 ? "abstained" : "without a pose",
+                          Percent(summary.abstained.share));
+  if (summary.searched > 0) {
+    data.facts.emplace_back("time per photo", Text("%.2f s", summary.seconds_median));
+    data.facts.emplace_back("poses per second", Grouped(summary.evaluations_per_second));
+  } else {
+    data.facts.emplace_back("with an energy of ours", std::to_string(summary.judged));
+  }
   if (summary.runs < 2 || !protocol.HasRecall()) return;
 
   const std::string name = protocol.name.empty() ? "" : ", protocol " + protocol.name;
@@ -255,18 +329,41 @@ void AddAssumptions(const std::vector<Query>& queries, ReportData& data) {
 
 }  // namespace
 
+ReportPhoto ReportPhotoOf(const Query& query, PictureReader& pictures) {
+  ReportPhoto photo;
+  photo.name = query.image.filename().string();
+  const cv::Mat picture = UndistortImage(BgrOf(pictures.Read(query)), *query.camera);
+  photo.width = picture.cols;
+  photo.height = picture.rows;
+  const double scale =
+      std::min(1.0, static_cast<double>(kPhotoSidePx) / std::max(picture.cols, picture.rows));
+  cv::resize(picture, photo.picture, {}, scale, scale, cv::INTER_AREA);
+  return photo;
+}
+
 Overlay ResultOverlay(const Localizer& localizer,
                       const PinholeCamera& camera,
                       const BenchRun& run) {
   const Scene& scene = localizer.scene();
   Overlay overlay;
-  overlay.layers.push_back(PlainEdgeLayer(
-      scene, camera, LocalOf(PriorPoseOf(run, localizer), localizer), "model at the prior"));
+  if (!run.is_given) {
+    overlay.layers.push_back(PlainEdgeLayer(
+        scene, camera, LocalOf(PriorPoseOf(run, localizer), localizer), "model at the prior"));
+  }
   const Localization& localization = run.localization;
   if (!localization.pose && localization.modes.empty()) return overlay;
   const Pose best = localization.pose ? *localization.pose : localization.modes.front().pose;
   for (OverlayLayer& layer : ModelEdgeLayers(scene, camera, LocalOf(best, localizer))) {
     overlay.layers.push_back(std::move(layer));
+  }
+  const std::vector<std::uint32_t> misfits = MisfitsOf(localization.goodness);
+  if (!misfits.empty()) {
+    overlay.layers.push_back(BuildingEdgeLayer(scene,
+                                               camera,
+                                               LocalOf(best, localizer),
+                                               misfits,
+                                               "building that does not fit",
+                                               kMisfitColor));
   }
   if (run.record.error) {
     overlay.caption = Text("error %.2f m, ", run.record.error->translation_m) +
@@ -296,7 +393,7 @@ ReportData BenchReport(const ReportOrigin& origin,
     const Query& query = queries[run.query];
     const auto [it, added] =
         photo_of_query.emplace(run.query, static_cast<int>(data.photos.size()));
-    if (added) data.photos.push_back(PhotoOf(query, pictures));
+    if (added) data.photos.push_back(ReportPhotoOf(query, pictures));
     data.runs.push_back(RunOf(run, query, localizer));
     data.runs.back().photo = it->second;
   }

@@ -30,6 +30,9 @@ ReportData BenchReport(const ReportOrigin& origin,
                        std::span<const BenchRun> runs,
                        PictureReader& pictures);
 
+// The photo of a query, undistorted and kept small.
+ReportPhoto ReportPhotoOf(const Query& query, PictureReader& pictures);
+
 // Model edges at the prior (thin, grey) and at the result (by kind) over the photo, on its
 // undistorted picture; at the best mode if there is no result.
 Overlay ResultOverlay(const Localizer& localizer, const PinholeCamera& camera, const BenchRun& run);

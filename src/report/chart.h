@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "report/overlay.h"
+#include "report/drawing.h"
 
 namespace ridgeline {
 
-// Charts as pictures (PNG), for files; the HTML report has its own.
+// Charts for files (PNG and SVG, drawing.h); the HTML report has its own.
 
 struct ChartSeries {
   std::string name;  // in the legend; empty: not listed
@@ -26,6 +26,7 @@ struct ChartAxis {
   std::optional<double> lower;  // absent: as the data
   std::optional<double> upper;
   std::vector<std::string> names;  // of the values 0, 1, 2, ...; empty: numbers
+  bool log = false;                // values of 0 and below are left out then
 };
 
 struct Chart {
@@ -37,17 +38,21 @@ struct Chart {
   std::string mark_name;
 };
 
-// Draws a chart into a part of a picture (8-bit BGR), with a light background.
-void DrawChart(const Chart& chart, const cv::Rect& area, cv::Mat& picture);
+// Draws a chart into a part of a drawing. Its legend takes as many rows as it needs.
+void DrawChart(const Chart& chart, const cv::Rect& area, Drawing& drawing);
 
-// Names and colours in lines of an area, as many as are needed; for panels that share them.
+// Names and colours in rows of an area, as many as are needed; for panels that share them. Returns
+// their height.
 struct LegendEntry {
   std::string name;
   Rgb color;
 };
-void DrawLegend(const std::vector<LegendEntry>& entries, const cv::Rect& area, cv::Mat& picture);
+int DrawLegend(const std::vector<LegendEntry>& entries, const cv::Rect& area, Drawing& drawing);
+// The height that DrawLegend() needs in an area so wide.
+int LegendHeight(const std::vector<LegendEntry>& entries, int width);
 
-// Values over a grid of positions; the least is bright, the worst tenth shares one colour.
+// Values over a grid of positions; the least is bright, the worst tenth shares one colour. Values
+// that differ in their powers of ten are shown by those.
 struct GridPicture {
   std::string title;
   std::string note;  // below the title
@@ -68,12 +73,12 @@ struct GridPicture {
   };
   std::vector<Mark> marks;
 };
-void DrawGrid(const GridPicture& grid, const cv::Rect& area, cv::Mat& picture);
+void DrawGrid(const GridPicture& grid, const cv::Rect& area, Drawing& drawing);
 
 // Distinct colours for series, in order; they repeat after eight.
 Rgb SeriesColor(std::size_t index);
 
-// An empty picture of the charts' background.
-cv::Mat ChartPaper(int width, int height);
+// An empty drawing.
+Drawing ChartPaper(int width, int height);
 
 }  // namespace ridgeline

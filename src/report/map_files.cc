@@ -48,6 +48,7 @@ std::vector<Feature> FeaturesOf(std::span<const ReportRun> runs) {
     const auto add_pose = [&](const char* kind, const std::optional<ReportPose>& pose) {
       if (!pose) return;
       features.push_back({"poses", kind, Shape::kPoint, {pose->position.head<2>()}, &run, &*pose});
+      if (!pose->has_heading) return;  // no way to look
       const double field = run.hfov_deg > 0.0 ? run.hfov_deg : kDefaultFieldDeg;
       features.push_back(
           {"view_cones", kind, Shape::kPolygon, ViewCone(*pose, field, kConeReachM), &run, &*pose});
@@ -95,7 +96,7 @@ std::unique_ptr<OGRGeometry> GeometryOf(const Feature& feature) {
 }
 
 void AddFields(OGRLayer& layer) {
-  const std::array<std::pair<const char*, OGRFieldType>, 12> fields = {{{"layer", OFTString},
+  const std::array<std::pair<const char*, OGRFieldType>, 14> fields = {{{"layer", OFTString},
                                                                         {"query", OFTString},
                                                                         {"seed", OFTInteger},
                                                                         {"kind", OFTString},
@@ -104,6 +105,8 @@ void AddFields(OGRLayer& layer) {
                                                                         {"energy", OFTReal},
                                                                         {"error_m", OFTReal},
                                                                         {"error_deg", OFTReal},
+                                                                        {"east", OFTReal},
+                                                                        {"north", OFTReal},
                                                                         {"height", OFTReal},
                                                                         {"heading", OFTReal},
                                                                         {"pitch", OFTReal}}};
@@ -122,13 +125,15 @@ bool AddFeature(const Feature& feature, OGRCoordinateTransformation* to_wgs84, O
   row->SetField("seed", run.seed);
   row->SetField("kind", feature.kind);
   row->SetField("status", run.status.c_str());
-  row->SetField("confidence", run.confidence);
-  row->SetField("energy", run.energy);
+  if (std::isfinite(run.confidence)) row->SetField("confidence", run.confidence);
+  if (std::isfinite(run.energy)) row->SetField("energy", run.energy);
   if (run.translation_m) row->SetField("error_m", *run.translation_m);
   if (run.rotation_deg) row->SetField("error_deg", *run.rotation_deg);
   if (feature.pose != nullptr) {
+    row->SetField("east", feature.pose->position.x());
+    row->SetField("north", feature.pose->position.y());
     row->SetField("height", feature.pose->position.z());
-    row->SetField("heading", feature.pose->heading_deg);
+    if (feature.pose->has_heading) row->SetField("heading", feature.pose->heading_deg);
     row->SetField("pitch", feature.pose->pitch_deg);
   }
   std::unique_ptr<OGRGeometry> geometry = GeometryOf(feature);
@@ -180,13 +185,15 @@ void WriteMap(std::span<const ReportRun> runs, int epsg, const fs::path& path) {
   const std::string driver_name = DriverOf(path);
   const bool kml = driver_name == "KML";
   const bool many_layers = driver_name == "GPKG";
+  const bool geographic = kml || (driver_name == "GeoJSON" && epsg != 0);
   if (kml && epsg == 0) {
     throw InputError(path.string(), "", "a model without a known CRS", "--model-crs EPSG:...");
   }
   OGRSpatialReference system = SystemOf(epsg);
   OGRSpatialReference wgs84 = SystemOf(4326);
   const std::unique_ptr<OGRCoordinateTransformation> to_wgs84(
-      kml ? OGRCreateCoordinateTransformation(&system, &wgs84) : nullptr);
+      geographic ? OGRCreateCoordinateTransformation(&system, &wgs84) : nullptr);
+  if (geographic && !to_wgs84) FailWriting(path);
 
   const fs::path temporary = TemporaryBeside(path);
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(driver_name.c_str());
@@ -199,9 +206,13 @@ void WriteMap(std::span<const ReportRun> runs, int epsg, const fs::path& path) {
     const std::string name = many_layers ? feature.layer : "ridgeline";
     OGRLayer*& layer = layers[name];
     if (layer == nullptr) {
-      OGRSpatialReference* layer_system = kml ? &wgs84 : epsg != 0 ? &system : nullptr;
-      layer = dataset->CreateLayer(
-          name.c_str(), layer_system, many_layers ? TypeOf(feature.shape) : wkbUnknown, nullptr);
+      OGRSpatialReference* layer_system = geographic ? &wgs84 : epsg != 0 ? &system : nullptr;
+      // No "crs" member in WGS 84.
+      const char* rfc7946[] = {"RFC7946=YES", nullptr};
+      layer = dataset->CreateLayer(name.c_str(),
+                                   layer_system,
+                                   many_layers ? TypeOf(feature.shape) : wkbUnknown,
+                                   geographic && !kml ? const_cast<char**>(rfc7946) : nullptr);
       if (layer == nullptr) FailWriting(path);
       AddFields(*layer);
     }

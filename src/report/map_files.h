@@ -9,7 +9,8 @@
 namespace ridgeline {
 
 // Writes runs as a map, whole or not at all: .gpkg (GeoPackage, a layer per kind), .geojson (one
-// layer, coordinates and "crs" member of the model's system) or .kml (WGS 84). Kinds, also in the
+// layer) or .kml; the last two in WGS 84, as web maps want them (RFC 7946), a .geojson of a model
+// without a known CRS in its own coordinates. Kinds, also in the
 // attribute "layer": poses (priors, results, truths), prior_boxes, view_cones, errors (result to
 // truth), ellipses (95 %). Throws InputError for another extension, a KML of a model without a
 // known CRS, or a file that cannot be written.

@@ -9,6 +9,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "report/overlay_legend.h"
 #include "report/overlay_scale.h"
 #include "report/picture_file.h"
 
@@ -49,57 +50,38 @@ void DrawLayer(const OverlayLayer& layer, double scale, cv::Mat& picture) {
   cv::addWeighted(drawn, layer.opacity, picture, 1.0 - layer.opacity, 0.0, picture);
 }
 
-// A box of names and line samples in the lower left corner.
-void DrawLegend(const Overlay& overlay, double scale, cv::Mat& picture) {
+// A strip of names and line samples, to stand below the picture so that nothing of it is covered.
+cv::Mat LegendStrip(const Overlay& overlay, double scale, int width) {
   const double font = 0.42 * scale;
-  const int font_weight = std::max(1, static_cast<int>(std::lround(0.9 * scale)));
-  const int line_height = static_cast<int>(std::lround(19 * scale));
-  const int pad = static_cast<int>(std::lround(9 * scale));
-  const int sample = static_cast<int>(std::lround(26 * scale));
-  std::vector<const OverlayLayer*> listed;
-  int text_width = 0;
-  const auto width_of = [&](const std::string& text) {
+  const int weight = std::max(1, static_cast<int>(std::lround(0.9 * scale)));
+  const LegendLayout layout = LayLegend(overlay, scale, width, [&](const std::string& text) {
     int baseline = 0;
-    return cv::getTextSize(text, cv::FONT_HERSHEY_DUPLEX, font, font_weight, &baseline).width;
-  };
-  for (const OverlayLayer& layer : overlay.layers) {
-    if (layer.name.empty() || layer.lines.empty()) continue;
-    listed.push_back(&layer);
-    text_width = std::max(text_width, sample + pad + width_of(layer.name));
-  }
-  const int rows = static_cast<int>(listed.size()) + (overlay.caption.empty() ? 0 : 1);
-  if (rows == 0) return;
-  if (!overlay.caption.empty()) text_width = std::max(text_width, width_of(overlay.caption));
-  const cv::Rect box = cv::Rect(pad,
-                                picture.rows - pad - rows * line_height - pad,
-                                text_width + 2 * pad,
-                                rows * line_height + pad) &
-                       cv::Rect(0, 0, picture.cols, picture.rows);
-  cv::Mat area = picture(box);
-  area = 0.22 * area;
-  int y = box.y + pad / 2 + line_height / 2;
-  const auto put = [&](const std::string& text, int x) {
-    cv::putText(picture,
-                text,
+    return cv::getTextSize(text, cv::FONT_HERSHEY_DUPLEX, font, weight, &baseline).width;
+  });
+  cv::Mat strip(static_cast<int>(std::lround(layout.height)), width, CV_8UC3, cv::Scalar::all(32));
+  for (const LegendPlace& place : layout.places) {
+    const int y = static_cast<int>(std::lround(place.y));
+    int x = static_cast<int>(std::lround(place.x));
+    if (place.layer != nullptr) {
+      const int end = x + static_cast<int>(std::lround(layout.sample));
+      cv::line(strip,
+               {x, y},
+               {end, y},
+               Bgr(place.layer->color),
+               std::max(2, static_cast<int>(std::lround(place.layer->width_px * scale))),
+               cv::LINE_AA);
+      x = end + static_cast<int>(std::lround(5.4 * scale));
+    }
+    cv::putText(strip,
+                place.text,
                 {x, y + static_cast<int>(std::lround(5 * scale))},
                 cv::FONT_HERSHEY_DUPLEX,
                 font,
                 {245, 245, 245},
-                font_weight,
+                weight,
                 cv::LINE_AA);
-  };
-  for (const OverlayLayer* layer : listed) {
-    const int x = box.x + pad;
-    cv::line(picture,
-             {x, y},
-             {x + sample, y},
-             Bgr(layer->color),
-             std::max(2, static_cast<int>(std::lround(layer->width_px * scale))),
-             cv::LINE_AA);
-    put(layer->name, x + sample + pad);
-    y += line_height;
   }
-  if (!overlay.caption.empty()) put(overlay.caption, box.x + pad);
+  return strip;
 }
 
 }  // namespace
@@ -116,7 +98,9 @@ cv::Mat DrawOverlay(const cv::Mat& photo,
   picture.convertTo(picture, CV_8UC3, options.photo_brightness);
   const double scale = OverlayScale(picture.size());
   for (const OverlayLayer& layer : overlay.layers) DrawLayer(layer, scale, picture);
-  if (options.legend) DrawLegend(overlay, scale, picture);
+  if (!options.legend) return picture;
+  const cv::Mat strip = LegendStrip(overlay, scale, picture.cols);
+  if (!strip.empty()) cv::vconcat(picture, strip, picture);
   return picture;
 }
 

@@ -34,7 +34,7 @@ struct Overlay {
 };
 
 struct OverlayDrawOptions {
-  bool legend = true;
+  bool legend = true;  // in a strip below the photo, which makes the picture higher
   // Brightness of the photo below the lines, (0, 1].
   double photo_brightness = 0.85;
 };

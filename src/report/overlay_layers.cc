@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/overlay_layers.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace ridgeline {
 namespace {
@@ -89,6 +91,30 @@ std::vector<OverlayLayer> ModelEdgeLayers(const Scene& scene,
     layers.push_back(std::move(layer));
   }
   return layers;
+}
+
+OverlayLayer BuildingEdgeLayer(const Scene& scene,
+                               const PinholeCamera& camera,
+                               const Pose& cam_from_local,
+                               const std::vector<std::uint32_t>& buildings,
+                               std::string name,
+                               const Rgb& color) {
+  OverlayLayer layer;
+  layer.name = std::move(name);
+  layer.color = color;
+  layer.width_px = 2.2;
+  const VisibleSet visible =
+      scene.VisibleFrom(cam_from_local.center_in_world, SectorOf(camera, cam_from_local));
+  std::vector<ProjectedSegment> segments;
+  ProjectPieces(visible, camera, cam_from_local, segments);
+  for (const ProjectedSegment& segment : segments) {
+    const FeatureEdge& edge = scene.edge(visible.pieces[segment.piece].edge);
+    if (edge.surface0 == kNoSurface) continue;
+    const std::uint32_t building = scene.model().surfaces[edge.surface0].building;
+    if (std::find(buildings.begin(), buildings.end(), building) == buildings.end()) continue;
+    layer.lines.push_back({segment.a, segment.b});
+  }
+  return layer;
 }
 
 OverlayLayer PlainEdgeLayer(const Scene& scene,

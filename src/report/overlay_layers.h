@@ -23,6 +23,14 @@ std::vector<OverlayLayer> ModelEdgeLayers(const Scene& scene,
                                           const PinholeCamera& camera,
                                           const Pose& cam_from_local);
 
+// The visible edges of some buildings (indices into CityModel::buildings) in one layer.
+OverlayLayer BuildingEdgeLayer(const Scene& scene,
+                               const PinholeCamera& camera,
+                               const Pose& cam_from_local,
+                               const std::vector<std::uint32_t>& buildings,
+                               std::string name,
+                               const Rgb& color);
+
 // The same edges in one thin grey layer, e.g. for the prior.
 OverlayLayer PlainEdgeLayer(const Scene& scene,
                             const PinholeCamera& camera,

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "report/overlay.h"
+#include "report/overlay_legend.h"
 #include "report/overlay_scale.h"
 #include "report/picture_file.h"
 
@@ -39,35 +40,27 @@ std::string Group(const OverlayLayer& layer, double scale) {
          "\" d=\"" + data + "\"/></g>\n";
 }
 
-std::string Legend(const Overlay& overlay, double scale, int height) {
-  std::string rows;
-  std::size_t letters = 0;
-  int count = 0;
-  const double step = 19.0 * scale;
-  const auto add_text = [&](const std::string& text, double x) {
-    rows += "<text x=\"" + Number(x) + "\" y=\"" + Number((count + 0.72) * step) + "\">" +
-            EscapeMarkup(text) + "</text>";
-    letters = std::max(letters, text.size());
-    ++count;
-  };
-  for (const OverlayLayer& layer : overlay.layers) {
-    if (layer.name.empty() || layer.lines.empty()) continue;
-    const std::string y = Number((count + 0.5) * step);
-    rows += "<path d=\"M0 " + y + "H" + Number(26.0 * scale) + "\" stroke=\"" +
-            HexColor(layer.color) + "\" stroke-width=\"" + Number(layer.width_px * scale) + "\"/>";
-    add_text(layer.name, 35.0 * scale);
+// About the width of a letter of 13 px.
+constexpr double kLetterPx = 6.6;
+
+// The strip below the picture.
+std::string Legend(const LegendLayout& layout, double scale, const cv::Size& photo) {
+  std::string marks;
+  for (const LegendPlace& place : layout.places) {
+    double x = place.x;
+    if (place.layer != nullptr) {
+      marks += "<path d=\"M" + Number(x) + " " + Number(place.y) + "h" + Number(layout.sample) +
+               "\" stroke=\"" + HexColor(place.layer->color) + "\" stroke-width=\"" +
+               Number(place.layer->width_px * scale) + "\"/>";
+      x += layout.sample + 5.4 * scale;
+    }
+    marks += "<text x=\"" + Number(x) + "\" y=\"" + Number(place.y + 4.5 * scale) + "\">" +
+             EscapeMarkup(place.text) + "</text>";
   }
-  if (!overlay.caption.empty()) add_text(overlay.caption, 0.0);
-  if (count == 0) return "";
-  const double pad = 9.0 * scale;
-  const double box_width = 35.0 * scale + 7.4 * scale * static_cast<double>(letters) + 2.0 * pad;
-  const double box_height = count * step + pad;
-  return "<g transform=\"translate(" + Number(pad) + " " + Number(height - box_height - pad) +
-         ")\"><rect width=\"" + Number(box_width) + "\" height=\"" + Number(box_height) +
-         "\" rx=\"" + Number(4.0 * scale) +
-         "\" fill=\"#000\" opacity=\"0.75\"/><g transform=\"translate(" + Number(pad) + " " +
-         Number(0.5 * pad) + ")\" fill=\"#fff\" font-family=\"sans-serif\" font-size=\"" +
-         Number(13.0 * scale) + "\">" + rows + "</g></g>\n";
+  return "<g transform=\"translate(0 " + std::to_string(photo.height) + ")\"><rect width=\"" +
+         std::to_string(photo.width) + "\" height=\"" + Number(layout.height) +
+         "\" fill=\"#202020\"/><g fill=\"#fff\" font-family=\"sans-serif\" font-size=\"" +
+         Number(13.0 * scale) + "\">" + marks + "</g></g>\n";
 }
 
 }  // namespace
@@ -78,14 +71,20 @@ std::string OverlaySvg(const cv::Mat& photo,
   const double scale = OverlayScale(photo.size());
   const std::string width = std::to_string(photo.cols);
   const std::string height = std::to_string(photo.rows);
+  LegendLayout legend;
+  if (options.legend) {
+    legend = LayLegend(overlay, scale, photo.cols, [&](const std::string& text) {
+      return kLetterPx * scale * static_cast<double>(text.size());
+    });
+  }
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + width + " " +
-                    height + "\">\n<rect width=\"" + width + "\" height=\"" + height +
+                    Number(photo.rows + legend.height) + "\">\n<rect width=\"" + width + "\" height=\"" + height +
                     "\" fill=\"#000\"/>\n<image width=\"" + width + "\" height=\"" + height +
                     "\" preserveAspectRatio=\"none\" opacity=\"" +
                     Number(options.photo_brightness) + "\" href=\"" +
                     JpegDataUrl(photo, std::max(photo.cols, photo.rows), 88) + "\"/>\n";
   for (const OverlayLayer& layer : overlay.layers) svg += Group(layer, scale);
-  if (options.legend) svg += Legend(overlay, scale, photo.rows);
+  if (legend.height > 0.0) svg += Legend(legend, scale, photo.size());
   return svg + "</svg>\n";
 }
 

@@ -74,6 +74,12 @@ std::string JpegDataUrl(const cv::Mat& picture, int max_side_px, int quality) {
   return "data:image/jpeg;base64," + Base64(bytes);
 }
 
+std::string PngDataUrl(const cv::Mat& picture) {
+  std::vector<uchar> bytes;
+  cv::imencode(".png", picture, bytes);
+  return "data:image/png;base64," + Base64(bytes);
+}
+
 std::string EscapeMarkup(const std::string& text) {
   std::string escaped;
   for (std::size_t i = 0; i < text.size();) {

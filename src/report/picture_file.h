@@ -14,6 +14,9 @@ void WritePicture(const cv::Mat& picture, const std::filesystem::path& path);
 // The picture as JPEG in a data: URL, no side longer than `max_side_px`.
 std::string JpegDataUrl(const cv::Mat& picture, int max_side_px, int quality);
 
+// The picture as PNG in a data: URL, as it is.
+std::string PngDataUrl(const cv::Mat& picture);
+
 // Text for HTML and XML, in elements and in attributes; bytes that are not UTF-8 become '?'.
 std::string EscapeMarkup(const std::string& text);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
@@ -20,6 +21,7 @@ struct ReportPose {
   double heading_deg = 0.0;
   double pitch_deg = 0.0;
   double roll_deg = 0.0;
+  bool has_heading = true;  // false: nothing is known of it
 };
 
 struct ReportMode {
@@ -57,6 +59,7 @@ struct ReportPlot {
   std::string x_label;
   std::string y_label;
   bool x_log = false;
+  bool y_log = false;
   std::vector<std::string> x_names;  // of x = 0, 1, 2, ...; empty: numbers
   std::vector<ReportSeries> series;
 };
@@ -71,6 +74,8 @@ struct ReportRun {
   int photo = -1;      // index into ReportData::photos; -1: none
   std::string status;  // "ok", "ambiguous", ...
   std::string reason;  // of an abstention, in words
+  std::string headline;  // what was found, in a sentence; empty: nothing to say
+  std::optional<Eigen::Vector2d> latitude_longitude;  // of the result, WGS 84 [deg]
   ReportOutcome outcome = ReportOutcome::kUnknown;
   double energy = 1.0;
   double confidence = 0.0;              // NaN: none, as in a score study
@@ -115,6 +120,9 @@ struct ReportData {
   std::string crs;  // of all positions; may be empty
   // What the runs of outcome kRight are: "17 of 24 ...".
   std::string right_text = "within 2 m and 2°";
+  bool is_study = false;   // of maps, not of localizations: figures and plots are its own
+  // Of a comparison: the systems whose poses stand in the places of prior and result.
+  std::optional<std::array<std::string, 2>> pair_names;
   bool has_recall = true;  // false: no right answer was in the search box, so none is counted
   std::vector<std::pair<std::string, std::string>> facts;  // big figures: name, value
   std::vector<ReportPhoto> photos;

@@ -43,7 +43,8 @@ Json PoseJson(const std::optional<ReportPose>& pose) {
             Number(pose->position.z(), 3)}},
           {"heading", Number(pose->heading_deg, 3)},
           {"pitch", Number(pose->pitch_deg, 3)},
-          {"roll", Number(pose->roll_deg, 3)}};
+          {"roll", Number(pose->roll_deg, 3)},
+          {"hasHeading", pose->has_heading}};
 }
 
 // Lines of a layer in tenths of a pixel.
@@ -156,6 +157,7 @@ Json PlotJson(const ReportPlot& plot) {
           {"x", plot.x_label},
           {"y", plot.y_label},
           {"xLog", plot.x_log},
+          {"yLog", plot.y_log},
           {"xNames", plot.x_names},
           {"series", series}};
 }
@@ -192,6 +194,8 @@ std::string SummaryJson(const ReportData& data) {
        {"version", data.version},
        {"crs", data.crs},
        {"rightText", data.right_text},
+       {"isStudy", data.is_study},
+       {"pair", data.pair_names ? Json(*data.pair_names) : Json(nullptr)},
        {"facts", PairsJson(data.facts)},
        {"runs", runs},
        {"recall", CurveJson(data.has_recall ? RecallCurve(data.runs) : std::vector<Share95>{})},
@@ -221,6 +225,10 @@ std::string RunDetailJson(const ReportRun& run) {
   }
   Json trace = Json::array();
   for (const double energy : run.best_energy) trace.push_back(Number(energy, 5));
+  Json place = nullptr;
+  if (run.latitude_longitude) {
+    place = {Number(run.latitude_longitude->x(), 7), Number(run.latitude_longitude->y(), 7)};
+  }
   Json ellipse = nullptr;
   if (run.result && run.position_covariance) {
     ellipse = Centimetres(EllipseOutline(run.result->position.head<2>(), *run.position_covariance),
@@ -228,6 +236,8 @@ std::string RunDetailJson(const ReportRun& run) {
   }
   return SafeDump(
       {{"origin", {Number(origin.x(), 3), Number(origin.y(), 3)}},
+       {"headline", run.headline},
+       {"latLon", place},
        {"prior", PoseJson(run.prior)},
        {"result", PoseJson(run.result)},
        {"truth", PoseJson(run.truth)},

@@ -55,11 +55,36 @@ ChartSeries Profile(std::span<const ErrorBin> bins,
   return series;
 }
 
+// Energies of a sharp score differ in their powers of ten: on a linear axis all but the worst lie
+// on its foot.
+bool WantsLog(double least, double worst) {
+  constexpr double kManifold = 30.0;
+  return least > 0.0 && worst > kManifold * least;
+}
+
+bool SpansPowers(const Chart& chart) {
+  double least = INFINITY;
+  double worst = 0.0;
+  for (const ChartSeries& series : chart.series) {
+    for (const double energy : series.y) {
+      if (energy > 0.0) least = std::min(least, energy);
+      if (std::isfinite(energy)) worst = std::max(worst, energy);
+    }
+  }
+  return WantsLog(least, worst);
+}
+
+ChartAxis EnergyAxis(double least, double worst) {
+  if (WantsLog(least, worst)) return {"energy (logarithmic)", 0.5 * least, 2.0 * worst, {}, true};
+  const double pad = std::max(1e-3, 0.04 * (worst - least));
+  return {"energy", least - pad, worst + pad, {}, false};
+}
+
 }  // namespace
 
-cv::Mat MapPicture(const StudyNames& names, const ScoreStudy& study) {
+Drawing MapPicture(const StudyNames& names, const ScoreStudy& study) {
   const Query& query = names.dataset.queries[study.query];
-  cv::Mat picture = ChartPaper(1180, 640);
+  Drawing picture = ChartPaper(1180, 640);
   GridPicture grid = GridOf(study.map, study, *query.truth);
   grid.title = TitleOf(names, study);
   grid.value_label = "energy, least over headings";
@@ -92,6 +117,7 @@ cv::Mat MapPicture(const StudyNames& names, const ScoreStudy& study) {
     curve.y.push_back(study.heading_energy[h]);
   }
   heading.series.push_back(std::move(curve));
+  heading.y.log = SpansPowers(heading);
   DrawChart(heading, {670, 0, 500, 310}, picture);
 
   Chart distance;
@@ -107,14 +133,15 @@ cv::Mat MapPicture(const StudyNames& names, const ScoreStudy& study) {
       Profile(study.by_distance, "median", 4, [](const ErrorBin& bin) {
         return Score::EnergyOf(bin.median_log_ratio);
       })};
+  distance.y.log = SpansPowers(distance);
   DrawChart(distance, {670, 320, 500, 310}, picture);
   return picture;
 }
 
-cv::Mat ExploredPicture(const StudyNames& names, const ScoreStudy& study) {
+Drawing ExploredPicture(const StudyNames& names, const ScoreStudy& study) {
   const ScoreChoice& score = names.scores[study.score];
   const EnergyMap& map = study.explored->map;
-  cv::Mat picture = ChartPaper(840, 800);
+  Drawing picture = ChartPaper(840, 800);
   GridPicture grid = GridOf(map, study, *names.dataset.queries[study.query].truth);
   grid.title = TitleOf(names, study) + Text(", explored at %.2f m", map.spacing_m);
   grid.value_label = "energy with the best angles";
@@ -143,33 +170,32 @@ cv::Mat ExploredPicture(const StudyNames& names, const ScoreStudy& study) {
   return picture;
 }
 
-cv::Mat ScatterPicture(const StudyNames& names,
+Drawing ScatterPicture(const StudyNames& names,
                        std::span<const ScoreStudy> studies,
                        std::size_t score,
                        std::span<const int> classes) {
   constexpr int kWidth = 420;
   constexpr int kHeight = 360;
-  cv::Mat picture = ChartPaper(kWidth * static_cast<int>(classes.size()), 2 * kHeight);
+  Drawing picture = ChartPaper(kWidth * static_cast<int>(classes.size()), 2 * kHeight);
   // One scale for all panels, so that they compare.
   double least = 1.0;
   double worst = 0.0;
   for (const ScoreStudy& study : studies) {
     if (study.score != score) continue;
     for (const SampledPose& pose : study.sampled) {
-      least = std::min(least, pose.energy);
+      if (pose.energy > 0.0) least = std::min(least, pose.energy);
       worst = std::max(worst, pose.energy);
     }
   }
-  const double pad = std::max(1e-3, 0.04 * (worst - least));
-  const ChartAxis energy{"energy", least - pad, worst + pad, {}};
+  const ChartAxis energy = EnergyAxis(least, worst);
   for (std::size_t panel = 0; panel < classes.size(); ++panel) {
     Chart translation;
     translation.title =
         names.scores[score].name + ", " + std::to_string(classes[panel]) + " evaluations a picture";
-    translation.x = {"position error [m]", 0.0, {}, {}};
+    translation.x = {"position error [m]", 0.0, {}, {}, false};
     translation.y = energy;
     Chart rotation;
-    rotation.x = {"rotation error [deg]", 0.0, {}, {}};
+    rotation.x = {"rotation error [deg]", 0.0, {}, {}, false};
     rotation.y = energy;
     for (std::size_t c = 0; c <= panel; ++c) {
       const int first = c == 0 ? 1 : classes[c - 1] + 1;
@@ -207,7 +233,7 @@ cv::Mat ScatterPicture(const StudyNames& names,
   return picture;
 }
 
-cv::Mat SensitivityPicture(const StudyNames& names,
+Drawing SensitivityPicture(const StudyNames& names,
                            std::span<const LevelSummary> summaries,
                            std::size_t variation) {
   constexpr int kWidth = 400;
@@ -216,20 +242,20 @@ cv::Mat SensitivityPicture(const StudyNames& names,
   // Recall first, then the median of each figure.
   constexpr std::size_t kPanels = kFigures + 2;
   const Variation& varied = names.variations[variation];
-  const int top = 32 + 20 * static_cast<int>(names.scores.size() / 8);
-  constexpr int kRows = static_cast<int>((kPanels + kColumns - 1) / kColumns);
-  cv::Mat picture = ChartPaper(kWidth * kColumns, top + kHeight * kRows);
   std::vector<LegendEntry> legend;
   for (std::size_t s = 0; s < names.scores.size(); ++s) {
     legend.push_back({names.scores[s].name, SeriesColor(s)});
   }
-  DrawLegend(legend, {0, 0, picture.cols, top}, picture);
+  const int top = LegendHeight(legend, kWidth * kColumns);
+  constexpr int kRows = static_cast<int>((kPanels + kColumns - 1) / kColumns);
+  Drawing picture = ChartPaper(kWidth * kColumns, top + kHeight * kRows);
+  DrawLegend(legend, {0, 0, picture.width(), top}, picture);
   for (std::size_t panel = 0; panel < kPanels; ++panel) {
     Chart chart;
-    chart.x = {varied.meaning, {}, {}, varied.levels};
+    chart.x = {varied.meaning, {}, {}, varied.levels, false};
     if (panel < 2) {
       chart.title = panel == 0 ? "Minimum within 2 m, 2 deg [%]" : "Minimum within 5 m, 5 deg [%]";
-      chart.y = {"% of the queries", 0.0, 105.0, {}};
+      chart.y = {"% of the queries", 0.0, 105.0, {}, false};
     } else {
       constexpr const char* kTitles[kFigures] = {"Minimum to truth [m]",
                                                  "Minimum to truth [deg]",
@@ -239,7 +265,7 @@ cv::Mat SensitivityPicture(const StudyNames& names,
                                                  "Margin of the best mode",
                                                  "Rank correlation"};
       chart.title = kTitles[panel - 2];
-      chart.y = {"median of the queries", {}, {}, {}};
+      chart.y = {"median of the queries", {}, {}, {}, false};
       if (panel - 2 < 5) chart.y.lower = 0.0;
     }
     for (std::size_t s = 0; s < names.scores.size(); ++s) {

@@ -1,33 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <opencv2/core/mat.hpp>
 #include <span>
 
+#include "report/drawing.h"
 #include "study/study_files.h"
 #include "study/study_summary.h"
 
 namespace ridgeline {
 
-// Pictures of a score study (8-bit BGR), for `ridgeline study --out`.
+// Pictures of a score study, for `ridgeline study --out`.
 
 // One score on one query: energy by position with truth, minimum and prior; energy by heading;
 // energy by distance from the truth.
-cv::Mat MapPicture(const StudyNames& names, const ScoreStudy& study);
+Drawing MapPicture(const StudyNames& names, const ScoreStudy& study);
 
 // The exploration of X, Y (Ayadi et al., Fig. 9); pixels for "skyline_l1", else the energy.
-cv::Mat ExploredPicture(const StudyNames& names, const ScoreStudy& study);
+Drawing ExploredPicture(const StudyNames& names, const ScoreStudy& study);
 
 // Score against error of the sampled searches of all queries, after each class of evaluations from
 // left to right (Loeper et al., Fig. 5), with the median error at an energy; translation above,
 // rotation below.
-cv::Mat ScatterPicture(const StudyNames& names,
+Drawing ScatterPicture(const StudyNames& names,
                        std::span<const ScoreStudy> studies,
                        std::size_t score,
                        std::span<const int> classes);
 
 // How the figures of each score change with one circumstance.
-cv::Mat SensitivityPicture(const StudyNames& names,
+Drawing SensitivityPicture(const StudyNames& names,
                            std::span<const LevelSummary> summaries,
                            std::size_t variation);
 

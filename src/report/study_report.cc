@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <map>
 
+#include "eval/binomial.h"
 #include "score/score.h"
 
 namespace ridgeline {
@@ -22,6 +23,12 @@ std::string Text(const char* format, double value) {
 }
 
 std::string Percent(double share) { return Text("%.0f\u00a0%%", 100.0 * share); }
+// With Wilson's 95 % interval, which says what few queries can.
+std::string RecallText(double share, int queries) {
+  const Interval95 interval = WilsonInterval(share, queries);
+  return Percent(share) + Text(" (%.0f to ", 100.0 * interval.lower) +
+         Text("%.0f)", 100.0 * interval.upper);
+}
 // One pose of 18 000 is 0.006 %.
 std::string SmallPercent(double share) {
   return share == 0.0 ? "0\u00a0%" : Text("%.2g\u00a0%%", 100.0 * share);
@@ -45,7 +52,9 @@ ReportTable ScoreTable(std::span<const StudySummary> summaries) {
   table.header.push_back("s per map");
   for (const StudySummary& summary : summaries) {
     std::vector<std::string> row = {summary.score, summary.set, std::to_string(summary.queries)};
-    for (const double recall : summary.recall) row.push_back(Percent(recall));
+    for (const double recall : summary.recall) {
+      row.push_back(RecallText(recall, summary.queries));
+    }
     for (std::string& cell : FigureCells(summary.median)) row.push_back(std::move(cell));
     row.push_back(Text("%.2f", summary.seconds));
     table.rows.push_back(std::move(row));
@@ -84,12 +93,28 @@ ReportTable SensitivityTable(const StudyNames& names, std::span<const LevelSumma
     const Variation& variation = names.variations[entry.variation];
     std::vector<std::string> row = {
         variation.meaning, variation.levels[entry.level], entry.summary.score};
-    for (const double recall : entry.summary.recall) row.push_back(Percent(recall));
+    for (const double recall : entry.summary.recall) {
+      row.push_back(RecallText(recall, entry.summary.queries));
+    }
     for (std::string& cell : FigureCells(entry.summary.median)) row.push_back(std::move(cell));
     row.push_back(Text("%.0f", entry.visible_edges));
     table.rows.push_back(std::move(row));
   }
   return table;
+}
+
+// Whether the energies of a sharp score differ in their powers of ten.
+bool SpansPowers(const ReportPlot& plot) {
+  constexpr double kManifold = 30.0;
+  double least = INFINITY;
+  double worst = 0.0;
+  for (const ReportSeries& series : plot.series) {
+    for (const double energy : series.y) {
+      if (energy > 0.0) least = std::min(least, energy);
+      worst = std::max(worst, energy);
+    }
+  }
+  return worst > kManifold * least;
 }
 
 ReportPlot ScatterPlot(const StudyNames& names,
@@ -123,6 +148,7 @@ ReportPlot ScatterPlot(const StudyNames& names,
     }
     plot.series.push_back(std::move(series));
   }
+  plot.y_log = SpansPowers(plot);
   constexpr std::size_t kGroups = 12;
   ReportSeries median;
   median.name = "median error";
@@ -302,6 +328,7 @@ ReportData StudyReport(const ReportOrigin& origin,
   data.facts = {{"queries", std::to_string(studies.size() / names.scores.size())},
                 {"scores", std::to_string(names.scores.size())},
                 {"protocol", origin.protocol.name}};
+  data.is_study = true;
   data.right_text = "maps have their minimum within 2 m and 2°";
   data.tables = {ScoreTable(summaries)};
   for (std::size_t i = 0; i < studies.size(); ++i) {

@@ -40,6 +40,16 @@ class Cue {
                          Workspace* workspace,
                          std::span<float> log_ratios) const = 0;
 
+  // Whether LogRatiosOfMany() is to be called in place of LogRatios(): for a cue to which a call is
+  // dear, such as one of another language.
+  virtual bool TakesMany() const { return false; }
+
+  // The same for poses of one place (local frame): the values of a pose next to each other.
+  // Thread-safe, but with allocations.
+  virtual void LogRatiosOfMany(const PositionView& /*view*/,
+                               std::span<const Pose> /*poses*/,
+                               std::span<float> /*log_ratios*/) const {}
+
   // As Score::Tolerant(). Null: the tolerance does not matter.
   virtual std::shared_ptr<const Cue> Tolerant(double /*factor*/) const { return nullptr; }
   // As Score::ForTilts(). Null: nothing is to be gained.
@@ -49,11 +59,15 @@ class Cue {
   }
 };
 
+struct CuePlugin;
+
 // What a cue is made for; must outlive it.
 struct CueContext {
   const PictureEvidence& picture;
   const Scene& scene;
   const OptionGroups& options;  // EvidenceOptions::cues
+  // The plug-in that makes it, for those that share a `make`.
+  const CuePlugin* plugin = nullptr;
 };
 
 struct CueName {

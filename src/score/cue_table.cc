@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "score/cue_table.h"
 
-#include <array>
+#include <algorithm>
+
+#include "base/error.h"
 
 namespace ridgeline {
 
@@ -10,9 +12,25 @@ extern const CuePlugin kSkyCue;
 extern const CuePlugin kFacadeCue;
 extern const CuePlugin kColourCues;
 
-std::span<const CuePlugin* const> CueTable() {
-  static constexpr std::array kTable = {&kEdgeCues, &kSkyCue, &kFacadeCue, &kColourCues};
-  return kTable;
+namespace {
+
+std::vector<const CuePlugin*>& Table() {
+  static std::vector<const CuePlugin*> table = {&kEdgeCues, &kSkyCue, &kFacadeCue, &kColourCues};
+  return table;
+}
+
+}  // namespace
+
+std::span<const CuePlugin* const> CueTable() { return Table(); }
+
+void AddCue(const CuePlugin& plugin) {
+  const std::vector<std::string> taken = CueNames();
+  for (const CueName& cue : plugin.names) {
+    if (std::find(taken.begin(), taken.end(), cue.name) != taken.end()) {
+      throw InputError("", "cue", "\"" + std::string(cue.name) + "\" again", "a name of its own");
+    }
+  }
+  Table().push_back(&plugin);
 }
 
 std::vector<std::string> CueNames() {

@@ -12,6 +12,9 @@ namespace ridgeline {
 struct EvidenceScore::Memory final : Score::Workspace {
   std::vector<std::unique_ptr<Cue::Workspace>> cues;  // by part
   std::vector<float> values;
+  // Of the cues that take many poses at once: by part, the values of the poses asked for.
+  std::vector<std::vector<float>> many;
+  std::size_t pose = 0;  // whose values in `many` are meant
 };
 
 EvidenceScore::EvidenceScore(const CueContext& context,
@@ -31,7 +34,9 @@ EvidenceScore::EvidenceScore(const CueContext& context,
     }
     const auto counts = [](double weight) { return weight > 0.0; };
     if (std::none_of(of_plugin.begin(), of_plugin.end(), counts)) continue;
-    parts_.push_back({plugin, plugin->make(context), weights_.size()});
+    CueContext of_cue = context;
+    of_cue.plugin = plugin;
+    parts_.push_back({plugin, plugin->make(of_cue), weights_.size()});
     weights_.insert(weights_.end(), of_plugin.begin(), of_plugin.end());
   }
 }
@@ -51,6 +56,7 @@ std::unique_ptr<Score::Workspace> EvidenceScore::NewWorkspace() const {
   auto memory = std::make_unique<Memory>();
   for (const Part& part : parts_) memory->cues.push_back(part.cue->NewWorkspace());
   memory->values.resize(weights_.size());
+  memory->many.resize(parts_.size());
   return memory;
 }
 
@@ -84,9 +90,35 @@ std::span<const float> EvidenceScore::Cues(const PositionView& view,
                                            const Pose& cam_from_local,
                                            Score::Workspace& workspace) const {
   auto& memory = static_cast<Memory&>(workspace);
+  AskForMany(view, {&cam_from_local, 1}, memory);
   ProjectPieces(view.visible, picture_.camera(), cam_from_local, memory.segments);
   ReadPose(cam_from_local, view, memory);
   return memory.values;
+}
+
+void EvidenceScore::CuesOfMany(const PositionView& view,
+                               std::span<const Pose> poses,
+                               Score::Workspace& workspace,
+                               std::span<float> rows) const {
+  auto& memory = static_cast<Memory&>(workspace);
+  AskForMany(view, poses, memory);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    memory.pose = i;
+    ProjectPieces(view.visible, picture_.camera(), poses[i], memory.segments);
+    ReadPose(poses[i], view, memory);
+    std::copy(memory.values.begin(), memory.values.end(), rows.begin() + i * weights_.size());
+  }
+}
+
+void EvidenceScore::AskForMany(const PositionView& view,
+                               std::span<const Pose> poses,
+                               Memory& memory) const {
+  memory.pose = 0;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    if (!parts_[i].cue->TakesMany()) continue;
+    memory.many[i].resize(poses.size() * parts_[i].plugin->names.size());
+    parts_[i].cue->LogRatiosOfMany(view, poses, memory.many[i]);
+  }
 }
 
 void EvidenceScore::ReadPose(const Pose& cam_from_local,
@@ -97,17 +129,41 @@ void EvidenceScore::ReadPose(const Pose& cam_from_local,
   const std::span<float> values(memory.values);
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const Part& part = parts_[i];
-    part.cue->LogRatios(
-        pose, memory.cues[i].get(), values.subspan(part.first, part.plugin->names.size()));
+    const std::size_t count = part.plugin->names.size();
+    const std::span<float> of_part = values.subspan(part.first, count);
+    if (part.cue->TakesMany()) {
+      std::copy_n(memory.many[i].begin() + memory.pose * count, count, of_part.begin());
+    } else {
+      part.cue->LogRatios(pose, memory.cues[i].get(), of_part);
+    }
   }
 }
 
 double EvidenceScore::LogRatio(const PositionView& view,
                                const Pose& cam_from_local,
                                Score::Workspace& workspace) const {
+  double log_ratio = 0.0;
+  LogRatios(view, {&cam_from_local, 1}, workspace, {&log_ratio, 1});
+  return log_ratio;
+}
+
+void EvidenceScore::LogRatios(const PositionView& view,
+                              std::span<const Pose> poses,
+                              Score::Workspace& workspace,
+                              std::span<double> log_ratios) const {
+  auto& memory = static_cast<Memory&>(workspace);
+  if (!picture_.is_blank()) AskForMany(view, poses, memory);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    memory.pose = i;
+    log_ratios[i] = LogRatioOfOne(view, poses[i], memory);
+  }
+}
+
+double EvidenceScore::LogRatioOfOne(const PositionView& view,
+                                    const Pose& cam_from_local,
+                                    Memory& memory) const {
   constexpr double kNothing = -std::numeric_limits<double>::infinity();
   if (picture_.is_blank()) return kNothing;
-  auto& memory = static_cast<Memory&>(workspace);
   ProjectPieces(view.visible, picture_.camera(), cam_from_local, memory.segments);
   if (memory.segments.empty()) return kNothing;
   ReadPose(cam_from_local, view, memory);

@@ -29,6 +29,10 @@ class EvidenceScore final : public Score {
   double LogRatio(const PositionView& view,
                   const Pose& cam_from_local,
                   Score::Workspace& workspace) const override;
+  void LogRatios(const PositionView& view,
+                 std::span<const Pose> poses,
+                 Score::Workspace& workspace,
+                 std::span<double> log_ratios) const override;
   std::vector<BuildingFit> BuildingFits(const PositionView& view,
                                         const Pose& cam_from_local,
                                         Score::Workspace& workspace) const override;
@@ -41,6 +45,11 @@ class EvidenceScore final : public Score {
   std::span<const float> Cues(const PositionView& view,
                               const Pose& cam_from_local,
                               Score::Workspace& workspace) const;
+  // The same for many orientations at the place of one view: a row of values for each.
+  void CuesOfMany(const PositionView& view,
+                  std::span<const Pose> poses,
+                  Score::Workspace& workspace,
+                  std::span<float> rows) const;
 
  private:
   struct Part {
@@ -53,6 +62,11 @@ class EvidenceScore final : public Score {
   // This score with the cues that `change` makes of its own; null: as they are.
   std::unique_ptr<Score> With(
       const std::function<std::shared_ptr<const Cue>(const Cue&)>& change) const;
+  double LogRatioOfOne(const PositionView& view,
+                       const Pose& cam_from_local,
+                       Memory& memory) const;
+  // Asks the cues that take many poses at once.
+  void AskForMany(const PositionView& view, std::span<const Pose> poses, Memory& memory) const;
   void ReadPose(const Pose& cam_from_local, const PositionView& view, Memory& memory) const;
 
   const PictureEvidence& picture_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -15,10 +17,18 @@ struct LineEnergyOptions {
   // Orthogonal distance at which the distance score is 0 [share of the picture's width], > 0; 10 px
   // at the paper's 960 px. The paper gives no number.
   double max_distance_width = 0.0104;
+  // The same in pixels of the picture compared, in place of the share if > 0: holds for upright and
+  // broad pictures alike.
+  double max_distance_px = 0.0;
 
   void Visit(OptionVisitor& v) {
     v.Field("max_angle_deg", max_angle_deg);
     v.Field("max_distance_width", max_distance_width);
+    v.Field("max_distance_px", max_distance_px);
+  }
+  // [px] of a picture of `width_px`.
+  double DistanceLimitPx(int width_px) const {
+    return max_distance_px > 0.0 ? max_distance_px : max_distance_width * width_px;
   }
   // Throws InputError naming the field.
   void Validate() const;
@@ -38,11 +48,25 @@ class LineEnergy {
   // In [0, 1]; 1 without model segments, and for a picture without lines.
   double Energy(std::span<const LineSegment> model) const;
 
+  // A picture's and a model's segment that correspond.
+  struct Pair {
+    std::size_t picture = 0;  // indices into what the constructor and Pairs() were given
+    std::size_t model = 0;
+    double score = 0.0;  // 1 - d / max_distance
+  };
+  // All pairs behind Energy(), by model segment; for figures.
+  std::vector<Pair> Pairs(std::span<const LineSegment> model) const;
+
  private:
   struct Directed {
     Eigen::Vector2f middle;
     float angle;  // undirected, [0, pi)
+    std::uint32_t index;
   };
+  // Calls visit(picture's segment, score) for the correspondents of a model segment.
+  template <typename Visit>
+  void ForCorrespondents(const LineSegment& segment, const Visit& visit) const;
+
   std::vector<Directed> segments_;  // by angle
   float max_angle_rad_ = 0.0f;
   float max_distance_px_ = 0.0f;

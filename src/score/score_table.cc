@@ -1,29 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "score/score_table.h"
 
-#include <array>
+#include <algorithm>
 
 #include "base/error.h"
 
 namespace ridgeline {
 
+extern const ScorePlugin kAreaScore;
 extern const ScorePlugin kEvidenceScore;
 extern const ScorePlugin kGradientScore;
 extern const ScorePlugin kLineEnergyScore;
 extern const ScorePlugin kOrientedChamferScore;
+extern const ScorePlugin kRayLineEnergyScore;
 extern const ScorePlugin kSkylineL1Score;
 extern const ScorePlugin kUnexplainedScore;
 extern const ScorePlugin kZbufferLineEnergyScore;
 
-std::span<const ScorePlugin* const> ScoreTable() {
-  static constexpr std::array kTable = {&kEvidenceScore,
-                                        &kLineEnergyScore,
-                                        &kZbufferLineEnergyScore,
-                                        &kSkylineL1Score,
-                                        &kGradientScore,
-                                        &kOrientedChamferScore,
-                                        &kUnexplainedScore};
-  return kTable;
+namespace {
+
+std::vector<const ScorePlugin*>& Table() {
+  static std::vector<const ScorePlugin*> table = {&kEvidenceScore,
+                                                  &kLineEnergyScore,
+                                                  &kZbufferLineEnergyScore,
+                                                  &kSkylineL1Score,
+                                                  &kGradientScore,
+                                                  &kOrientedChamferScore,
+                                                  &kUnexplainedScore,
+                                                  &kAreaScore,
+                                                  &kRayLineEnergyScore};
+  return table;
+}
+
+}  // namespace
+
+std::span<const ScorePlugin* const> ScoreTable() { return Table(); }
+
+void AddScore(const ScorePlugin& plugin) {
+  const std::vector<std::string> taken = ScoreNames();
+  if (std::find(taken.begin(), taken.end(), plugin.name) != taken.end()) {
+    throw InputError(
+        "", "score", "\"" + std::string(plugin.name) + "\" again", "a name of its own");
+  }
+  Table().push_back(&plugin);
 }
 
 std::vector<std::string> ScoreNames() {

@@ -10,8 +10,13 @@
 
 namespace ridgeline {
 
-// All scores.
+// All scores. Valid until the next AddScore().
 std::span<const ScorePlugin* const> ScoreTable();
+
+// Adds a score of a program of its own to the table: at the program's start, before any options are
+// made, which hold what the scores declare. `plugin` must outlive the program's work. Throws
+// InputError for a name that the table has.
+void AddScore(const ScorePlugin& plugin);
 
 // Names that ScoreOptions::name accepts, in the order of the table.
 std::vector<std::string> ScoreNames();

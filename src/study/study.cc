@@ -13,6 +13,7 @@
 #include "localize/search_poses.h"
 #include "score/picture_evidence.h"
 #include "score/score_table.h"
+#include "study/study_json.h"
 
 namespace ridgeline {
 namespace {
@@ -168,6 +169,41 @@ LocalizationInput StudyInput(const Query& query,
   return input;
 }
 
+// The list of maps of a study, one after the other: those of the shard, found where an earlier start
+// kept them, else made and kept.
+class Pieces {
+ public:
+  Pieces(std::string kind,
+         std::size_t total,
+         const StudyOptions& options,
+         const StudyProgressFunction& progress)
+      : kind_(std::move(kind)), options_(options), progress_(progress) {
+    for (std::size_t i = 0; i < total; ++i) total_ += options_.shard.Takes(i) ? 1 : 0;
+  }
+
+  // nullopt: another shard's.
+  template <typename Make>
+  std::optional<ScoreStudy> Next(const std::string& what, const Make& make) {
+    const std::size_t index = next_++;
+    if (!options_.shard.Takes(index)) return std::nullopt;
+    const std::string name = kind_ + "_" + PieceName(index, what);
+    std::optional<std::string> kept;
+    if (options_.folder != nullptr) kept = options_.folder->Find(name);
+    ScoreStudy study = kept ? ReadStudy(*kept, name) : make();
+    if (!kept && options_.folder != nullptr) options_.folder->Keep(name, StudyText(study));
+    if (progress_) progress_({++done_, total_});
+    return study;
+  }
+
+ private:
+  std::string kind_;
+  const StudyOptions& options_;
+  const StudyProgressFunction& progress_;
+  std::size_t next_ = 0;
+  std::size_t done_ = 0;
+  std::size_t total_ = 0;
+};
+
 bool ChangesModel(const Variation& variation) {
   return variation.name == "edges" || variation.name == "heights" || variation.name == "footprints";
 }
@@ -185,7 +221,9 @@ void StudyOptions::Validate() const {
     throw InputError("--classes", "", "numbers that do not rise", "e.g. 50,100,200");
 }
 
-std::vector<std::size_t> StudyQueries(const Dataset& dataset, const std::vector<std::string>& ids) {
+std::vector<std::size_t> StudyQueries(const Dataset& dataset,
+                                      const std::vector<std::string>& ids,
+                                      const std::vector<std::string>& sets) {
   std::vector<std::size_t> queries;
   std::vector<std::string> known;
   for (std::size_t q = 0; q < dataset.queries.size(); ++q) {
@@ -210,6 +248,12 @@ std::vector<std::size_t> StudyQueries(const Dataset& dataset, const std::vector<
     }
     queries.push_back(q);
   }
+  if (!sets.empty()) {
+    const std::vector<std::size_t> chosen = ChooseQueries(dataset, {}, sets);
+    std::erase_if(queries, [&](std::size_t q) {
+      return std::find(chosen.begin(), chosen.end(), q) == chosen.end();
+    });
+  }
   if (queries.empty()) {
     throw InputError(dataset.file.string(),
                      "queries",
@@ -225,25 +269,73 @@ std::vector<ScoreStudy> RunStudy(const BenchQueries& source,
                                  std::span<const ScoreChoice> scores,
                                  const StudyOptions& options,
                                  const StudyProgressFunction& progress) {
+  Pieces pieces("map", queries.size() * scores.size(), options, progress);
   std::vector<ScoreStudy> studies;
   for (const std::size_t q : queries) {
     const Query& query = source.dataset().queries[q];
-    const SearchStart start = source.Start(q, options.seed, localizer);
-    const QueryStudy of_query(
-        query, StudyInput(query, localizer.options(), start), start.ranges, localizer, options);
+    std::optional<QueryStudy> of_query;  // only where a map is to be made
+    const auto make = [&](std::size_t s) {
+      if (!of_query) {
+        const SearchStart start = source.Start(q, options.seed, localizer);
+        of_query.emplace(
+            query, StudyInput(query, localizer.options(), start), start.ranges, localizer, options);
+      }
+      ScoreStudy study = of_query->Map(scores[s]);
+      of_query->AddSampled(scores[s], study);
+      if (options.explore) of_query->AddExplored(scores[s], study);
+      return study;
+    };
     for (std::size_t s = 0; s < scores.size(); ++s) {
-      ScoreStudy study = of_query.Map(scores[s]);
-      of_query.AddSampled(scores[s], study);
-      if (options.explore) of_query.AddExplored(scores[s], study);
-      study.query = q;
-      study.score = s;
-      study.set = query.set;
-      studies.push_back(std::move(study));
-      if (progress) progress({studies.size(), queries.size() * scores.size()});
+      std::optional<ScoreStudy> study =
+          pieces.Next(query.id + "_" + scores[s].name, [&] { return make(s); });
+      if (!study) continue;
+      study->query = q;
+      study->score = s;
+      study->set = query.set;
+      studies.push_back(std::move(*study));
     }
   }
   return studies;
 }
+
+namespace {
+
+// The model and the localizer of one level of a variation, made where they are first needed.
+class VariedWorld {
+ public:
+  VariedWorld(const Localizer& localizer,
+              const Variation& variation,
+              const std::string& level,
+              std::uint64_t seed)
+      : localizer_(localizer),
+        variation_(variation),
+        level_(level),
+        seed_(seed),
+        options_(VariedOptions(localizer.options(), variation, level)) {}
+
+  const LocalizerOptions& options() const { return options_; }
+
+  const Localizer& Get() {
+    if (varied_) return *varied_;
+    const CityModel& model = localizer_.scene().model();
+    if (ChangesModel(variation_)) changed_ = VariedModel(model, variation_, level_, seed_);
+    std::optional<HeightGrid> dtm;
+    if (localizer_.dtm() != nullptr) dtm = *localizer_.dtm();
+    varied_.emplace(changed_ ? *changed_ : model, std::move(dtm), options_);
+    return *varied_;
+  }
+
+ private:
+  const Localizer& localizer_;
+  const Variation& variation_;
+  const std::string& level_;
+  std::uint64_t seed_;
+  LocalizerOptions options_;
+  std::optional<CityModel> changed_;
+  std::optional<Localizer> varied_;
+};
+
+}  // namespace
 
 std::vector<VariedStudy> RunVariations(const BenchQueries& source,
                                        std::span<const std::size_t> queries,
@@ -252,39 +344,41 @@ std::vector<VariedStudy> RunVariations(const BenchQueries& source,
                                        std::span<const Variation> variations,
                                        const StudyOptions& options,
                                        const StudyProgressFunction& progress) {
-  std::vector<VariedStudy> studies;
   std::size_t levels = 0;
   for (const Variation& variation : variations) levels += variation.levels.size();
-  const std::size_t total = levels * queries.size() * scores.size();
-  const CityModel& model = localizer.scene().model();
+  Pieces pieces("varied", levels * queries.size() * scores.size(), options, progress);
+  std::vector<VariedStudy> studies;
   for (std::size_t v = 0; v < variations.size(); ++v) {
     const Variation& variation = variations[v];
     for (std::size_t l = 0; l < variation.levels.size(); ++l) {
       const std::string& level = variation.levels[l];
-      std::optional<CityModel> changed;
-      if (ChangesModel(variation)) changed = VariedModel(model, variation, level, options.seed);
-      std::optional<HeightGrid> dtm;
-      if (localizer.dtm() != nullptr) dtm = *localizer.dtm();
-      const Localizer varied(changed ? *changed : model,
-                             std::move(dtm),
-                             VariedOptions(localizer.options(), variation, level));
+      VariedWorld world(localizer, variation, level, options.seed);
       for (const std::size_t q : queries) {
         const Query& query = source.dataset().queries[q];
-        const SearchStart start = source.Start(q, options.seed, localizer);
-        LocalizationInput input = StudyInput(query, varied.options(), start);
-        input.picture = VariedPicture(input.picture, variation, level, options.seed, query.id);
-        input.camera = VariedCamera(input.camera, variation, level);
-        const QueryStudy of_query(query, input, start.ranges, varied, options);
-        for (std::size_t s = 0; s < scores.size(); ++s) {
+        std::optional<QueryStudy> of_query;
+        const auto make = [&](std::size_t s) {
+          if (!of_query) {
+            const SearchStart start = source.Start(q, options.seed, localizer);
+            LocalizationInput input = StudyInput(query, world.options(), start);
+            input.picture = VariedPicture(input.picture, variation, level, options.seed, query.id);
+            input.camera = VariedCamera(input.camera, variation, level);
+            of_query.emplace(query, input, start.ranges, world.Get(), options);
+          }
           ScoreChoice choice = scores[s];
-          choice.options.evidence = varied.options().score.evidence;
-          ScoreStudy study = of_query.Map(choice);
-          study.query = q;
-          study.score = s;
-          study.set = query.set;
+          choice.options.evidence = world.options().score.evidence;
+          ScoreStudy study = of_query->Map(choice);
           study.map = {};
-          studies.push_back({v, l, std::move(study)});
-          if (progress) progress({studies.size(), total});
+          return study;
+        };
+        for (std::size_t s = 0; s < scores.size(); ++s) {
+          std::optional<ScoreStudy> study =
+              pieces.Next(variation.name + "_" + level + "_" + query.id + "_" + scores[s].name,
+                          [&] { return make(s); });
+          if (!study) continue;
+          study->query = q;
+          study->score = s;
+          study->set = query.set;
+          studies.push_back({v, l, std::move(*study)});
         }
       }
     }

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "eval/bench_queries.h"
+#include "eval/run_folder.h"
+#include "eval/shard.h"
 #include "input/dataset.h"
 #include "localize/localizer.h"
 #include "study/explore.h"
@@ -24,6 +26,9 @@ struct StudyOptions {
   // Whether X, Y are explored as in Ayadi et al., Fig. 9.
   bool explore = false;
   int threads = 0;
+  Shard shard;  // of the maps, by query, then score; of the changed ones by level before
+  // Where finished maps are kept, and those of an earlier start are found; null: nowhere.
+  const RunFolder* folder = nullptr;
 
   // Throws InputError naming the argument.
   void Validate() const;
@@ -76,7 +81,10 @@ using StudyProgressFunction = std::function<void(const StudyProgress&)>;
 
 // The queries of a study: those named, or all with a truth. Throws InputError for an id that is
 // none (with the nearest), a named query without truth, and a dataset without any truth.
-std::vector<std::size_t> StudyQueries(const Dataset& dataset, const std::vector<std::string>& ids);
+// @param sets  Of the queries; empty: any.
+std::vector<std::size_t> StudyQueries(const Dataset& dataset,
+                                      const std::vector<std::string>& ids,
+                                      const std::vector<std::string>& sets = {});
 
 // Every score on every query, by query, then score; the map covers the box that the protocol gives
 // a search. `queries` are indices into the dataset of `source`, usable ones. One picture at a time,

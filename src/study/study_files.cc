@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "eval/binomial.h"
 #include "eval/csv_text.h"
 #include "score/score.h"
 #include "score/skyline_l1.h"
@@ -37,13 +38,20 @@ std::string FigureFields(const ScoreStudy& study) {
 
 std::string RecallHeader() {
   std::string header;
-  for (const StudyLimit& limit : kStudyLimits) header += std::string(",recall_") + limit.name;
+  for (const StudyLimit& limit : kStudyLimits) {
+    const std::string name = std::string(",recall_") + limit.name;
+    header += name + name + "_lower" + name + "_upper";
+  }
   return header;
 }
 
 std::string SummaryFields(const StudySummary& summary) {
   std::string fields;
-  for (const double recall : summary.recall) fields += ',' + CsvNumber(recall, 4);
+  for (const double recall : summary.recall) {
+    const Interval95 interval = WilsonInterval(recall, summary.queries);
+    fields += ',' + CsvNumber(recall, 4) + ',' + CsvNumber(interval.lower, 4) + ',' +
+              CsvNumber(interval.upper, 4);
+  }
   for (const double median : summary.median) fields += ',' + CsvNumber(median, 6);
   return fields;
 }
@@ -110,7 +118,9 @@ std::string StudySummaryJson(const std::string& dataset,
                 {"queries", summary.queries},
                 {"with_figures", summary.with_figures}};
     for (std::size_t t = 0; t < kStudyLimits.size(); ++t) {
+      const Interval95 interval = WilsonInterval(summary.recall[t], summary.queries);
       row["recall"][kStudyLimits[t].name] = summary.recall[t];
+      row["recall_ci95"][kStudyLimits[t].name] = {interval.lower, interval.upper};
     }
     for (std::size_t f = 0; f < kFigures; ++f) {
       const double value = summary.median[f];

@@ -18,6 +18,7 @@
 #include "synth/town_model.h"
 #include "synth/viewpoint.h"
 #include "synth/write_city.h"
+#include "synth/write_tower.h"
 
 namespace ridgeline {
 namespace {
@@ -61,7 +62,10 @@ class DatasetWriter {
   TownDatasetSummary Write() {
     WriteModel();
     WriteTerrain();
-    if (pictures_ > 0) WritePictures();
+    if (pictures_ > 0) {
+      WritePictures();
+      WriteDemoTower(folder_);
+    }
     return summary_;
   }
 

@@ -17,7 +17,6 @@ using Eigen::Vector3d;
 
 constexpr double kDeg = 180.0 / std::numbers::pi;
 constexpr std::uint64_t kWalkStage = 0x90;
-constexpr double kEyeHeightM = 1.6;
 // The walker keeps to the roadway, so far from the middle line [m].
 constexpr double kOffMiddleM = 1.5;
 // Steps per second.
@@ -89,6 +88,50 @@ void Require(bool valid, const char* field, double found, const char* expected) 
 
 }  // namespace
 
+void OdometryErrors::Visit(OptionVisitor& v) {
+  v.Field("scale", scale);
+  v.Field("noise_share", noise_share);
+  v.Field("heading_noise_deg", heading_noise_deg);
+  v.Field("drift_deg_s", drift_deg_s);
+}
+
+void GnssTrouble::Visit(OptionVisitor& v) {
+  v.Field("outage_from_s", outage_from_s);
+  v.Field("outage_to_s", outage_to_s);
+  v.Field("jump_at_s", jump_at_s);
+  v.Field("jump_m", jump_m);
+  v.Field("spoof_from_s", spoof_from_s);
+  v.Field("spoof_m_s", spoof_m_s);
+  v.Field("noise_m", noise_m);
+}
+
+WalkOptions DriveDefaults() {
+  WalkOptions drive;
+  drive.frames_per_second = 2.0;
+  drive.width = 1280;
+  drive.height = 720;
+  drive.horizontal_fov_deg = 70.0;
+  drive.speed_m_s = 8.0;
+  drive.pitch_deg = 0.0;
+  drive.eye_height_m = 2.0;
+  drive.look_deg = 0.0;
+  drive.hand_deg = 0.5;
+  drive.bob_m = 0.0;
+  drive.gnss_error_low_m = 0.0;
+  drive.gnss_error_high_m = 4.0;
+  drive.gnss.noise_m = 1.0;
+  return drive;
+}
+
+WalkOptions FlightDefaults() {
+  WalkOptions flight = DriveDefaults();
+  flight.speed_m_s = 10.0;
+  flight.pitch_deg = -35.0;
+  flight.eye_height_m = 50.0;
+  flight.hand_deg = 2.0;
+  return flight;
+}
+
 void WalkOptions::Visit(OptionVisitor& v) {
   v.Group("town", [&](OptionVisitor& g) { town.Visit(g); });
   v.Field("frames", frames);
@@ -111,6 +154,14 @@ void WalkOptions::Visit(OptionVisitor& v) {
   v.Field("tilt_sigma_deg", tilt_sigma_deg);
   v.Field("acceleration_noise", acceleration_noise);
   v.Field("pressure_noise_hpa", pressure_noise_hpa);
+  v.Field("gyro_bias", gyro_bias);
+  v.Field("gyro_noise", gyro_noise);
+  v.Field("eye_height_m", eye_height_m);
+  v.Field("look_deg", look_deg);
+  v.Field("hand_deg", hand_deg);
+  v.Field("bob_m", bob_m);
+  v.Group("odometry", [&](OptionVisitor& g) { odometry.Visit(g); });
+  v.Group("gnss", [&](OptionVisitor& g) { gnss.Visit(g); });
 }
 
 void WalkOptions::Validate() const {
@@ -130,6 +181,8 @@ void WalkOptions::Validate() const {
   Require(jpeg_quality >= 1 && jpeg_quality <= 100, "jpeg_quality", jpeg_quality, "1 to 100");
   Require(speed_m_s >= 0.0, "speed_m_s", speed_m_s, "at least 0");
   Require(std::abs(pitch_deg) <= 45.0, "pitch_deg", pitch_deg, "-45 to 45");
+  Require(eye_height_m > 0.0, "eye_height_m", eye_height_m, "more than 0");
+  Require(odometry.scale > 0.0, "odometry.scale", odometry.scale, "more than 0");
   Require(std::abs(declination_deg) <= 180.0, "declination_deg", declination_deg, "-180 to 180");
   Require(gnss_error_high_m >= gnss_error_low_m,
           "gnss_error_high_m",
@@ -145,7 +198,17 @@ void WalkOptions::Validate() const {
       {"altitude_jump_m", altitude_jump_m},
       {"tilt_sigma_deg", tilt_sigma_deg},
       {"acceleration_noise", acceleration_noise},
-      {"pressure_noise_hpa", pressure_noise_hpa}};
+      {"pressure_noise_hpa", pressure_noise_hpa},
+      {"gyro_bias", gyro_bias},
+      {"gyro_noise", gyro_noise},
+      {"look_deg", look_deg},
+      {"hand_deg", hand_deg},
+      {"bob_m", bob_m},
+      {"odometry.noise_share", odometry.noise_share},
+      {"odometry.heading_noise_deg", odometry.heading_noise_deg},
+      {"gnss.jump_m", gnss.jump_m},
+      {"gnss.spoof_m_s", gnss.spoof_m_s},
+      {"gnss.noise_m", gnss.noise_m}};
   for (const auto& [name, value] : not_negative) Require(value >= 0.0, name, value, "at least 0");
 }
 
@@ -164,17 +227,18 @@ std::vector<Pose> WalkPoses(const Town& town, const WalkOptions& options) {
     const Place ahead = PlaceAt(way, (t + 1.5) * options.speed_m_s);
     const double turn =
         std::remainder(ahead.heading_rad - place.heading_rad, 2.0 * std::numbers::pi);
-    const double heading_deg =
-        (place.heading_rad + 0.5 * turn) * kDeg + 25.0 * look.At(t) + 1.5 * hand_heading.At(t);
-    const double bob = 0.03 * std::sin(2.0 * std::numbers::pi * kStepRate * t);
+    const double heading_deg = (place.heading_rad + 0.5 * turn) * kDeg +
+                               options.look_deg * look.At(t) +
+                               0.75 * options.hand_deg * hand_heading.At(t);
+    const double bob = options.bob_m * std::sin(2.0 * std::numbers::pi * kStepRate * t);
     place.xy +=
         0.1 * side.At(t) * Vector2d(std::cos(place.heading_rad), -std::sin(place.heading_rad));
     Pose pose;
     pose.center_in_world = {
-        place.xy.x(), place.xy.y(), town.TerrainHeight(place.xy) + kEyeHeightM + bob};
+        place.xy.x(), place.xy.y(), town.TerrainHeight(place.xy) + options.eye_height_m + bob};
     pose.cam_from_world = CamFromWorld(ViewAngles{WrapHeadingDeg(heading_deg),
-                                                  options.pitch_deg + 2.0 * hand_pitch.At(t),
-                                                  2.0 * hand_roll.At(t)});
+                                                  options.pitch_deg + options.hand_deg * hand_pitch.At(t),
+                                                  options.hand_deg * hand_roll.At(t)});
     poses.push_back(pose);
   }
   return poses;

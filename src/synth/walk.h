@@ -13,6 +13,36 @@
 
 namespace ridgeline {
 
+// Errors of the relative poses in odometry.csv.
+struct OdometryErrors {
+  // Factor on all distances; 1: right.
+  double scale = 1.0;
+  // Noise of each step: share of its length, and per step of heading [deg], pitch and roll a third
+  // of it.
+  double noise_share = 0.02;
+  double heading_noise_deg = 0.1;
+  // Heading that runs away [deg/s].
+  double drift_deg_s = 0.05;
+
+  void Visit(OptionVisitor& v);
+};
+
+// What befalls the receiver, in seconds from the first frame; negative: never.
+struct GnssTrouble {
+  double outage_from_s = -1.0;
+  double outage_to_s = -1.0;
+  // From then on all positions are off by so much, in a direction drawn.
+  double jump_at_s = -1.0;
+  double jump_m = 30.0;
+  // From then on the positions are dragged off at this speed, in a direction drawn.
+  double spoof_from_s = -1.0;
+  double spoof_m_s = 0.5;
+  // White noise of each fix, east and north, beside the drifting error of the walk.
+  double noise_m = 0.0;
+
+  void Visit(OptionVisitor& v);
+};
+
 // A hand-held walk through a town, filmed with a phone, and the errors of the phone's instruments.
 struct WalkOptions {
   TownOptions town;
@@ -43,11 +73,28 @@ struct WalkOptions {
   // Accelerometer noise on each axis while walking [m/s^2].
   double acceleration_noise = 0.15;
   double pressure_noise_hpa = 0.03;
+  // Gyroscope: sigma of its bias and of its noise [rad/s].
+  double gyro_bias = 0.003;
+  double gyro_noise = 0.01;
+  // Height of the camera above the ground.
+  double eye_height_m = 1.6;
+  // How far the camera looks around, and how unsteadily it is held [deg]; 0 on a vehicle.
+  double look_deg = 25.0;
+  double hand_deg = 2.0;
+  // Up and down from step to step.
+  double bob_m = 0.03;
+  OdometryErrors odometry;
+  GnssTrouble gnss;
 
   void Visit(OptionVisitor& v);
   // Throws InputError naming the field, e.g. "walk.frames".
   void Validate() const;
 };
+
+// A car's camera: 720p, level, looking ahead, 2 frames a second at 8 m/s.
+WalkOptions DriveDefaults();
+// A drone along the streets, 50 m up and looking down ahead.
+WalkOptions FlightDefaults();
 
 // True poses of the frames, in the town's local frame.
 std::vector<Pose> WalkPoses(const Town& town, const WalkOptions& options);
@@ -58,8 +105,12 @@ std::string WalkSensorsCsv(const Town& town,
                            const std::vector<Pose>& cam_from_local,
                            const WalkOptions& options);
 
+// Odometry between the frames as a CSV (track/odometry.h): from the second frame on, the pose of
+// each in the axes of the one before, with standard deviations.
+std::string WalkOdometryCsv(const std::vector<Pose>& cam_from_local, const WalkOptions& options);
+
 // Writes the town and the walk as a dataset into the existing folder `folder`: city.gml, dtm.tif,
-// images/frame_*.jpg, sensors.csv, dataset.json with the true poses. Same files for the same
+// images/frame_*.jpg, sensors.csv, odometry.csv, dataset.json with the true poses. Same files for the same
 // options on any number of threads.
 TownDatasetSummary WriteWalkDataset(const WalkOptions& options,
                                     const std::filesystem::path& folder,

@@ -13,6 +13,7 @@
 #include "synth/walk.h"
 #include "synth/weather.h"
 #include "synth/write_city.h"
+#include "synth/write_tower.h"
 
 namespace ridgeline {
 namespace {
@@ -94,7 +95,9 @@ TownDatasetSummary WriteWalkDataset(const WalkOptions& options,
     ++summary.pictures;
     progress(2 + summary.pictures, total);
   }
+  WriteDemoTower(folder);
   WriteFileAtomically(folder / "sensors.csv", WalkSensorsCsv(town, poses, options));
+  WriteFileAtomically(folder / "odometry.csv", WalkOdometryCsv(poses, options));
   const Json dataset = {{"name", "demo-walk"},
                         {"crs", "EPSG:" + std::to_string(town.epsg)},
                         {"model", {"city.gml"}},

@@ -21,6 +21,8 @@ struct NumberColumn {
 };
 
 constexpr double kAny = 1e12;
+// Phones' gyroscopes end at 2000 deg/s; degrees taken for radians show soon.
+constexpr double kFastestRadS = 40.0;
 constexpr NumberColumn kNumbers[] = {
     {"time_s", &SensorReading::time_s, -kAny, kAny},
     {"lat_deg", &SensorReading::latitude_deg, -90.0, 90.0},
@@ -30,8 +32,10 @@ constexpr NumberColumn kNumbers[] = {
     {"pitch_deg", &SensorReading::pitch_deg, -90.0, 90.0},
     {"roll_deg", &SensorReading::roll_deg, -180.0, 180.0},
     {"pressure_hpa", &SensorReading::pressure_hpa, 100.0, 1200.0},
+    {"speed_m_s", &SensorReading::speed_m_s, -100.0, 500.0},
 };
 constexpr const char* kAxes[] = {"acc_x", "acc_y", "acc_z"};
+constexpr const char* kRates[] = {"gyro_x", "gyro_y", "gyro_z"};
 
 std::vector<std::string> Fields(const std::string& line) {
   std::vector<std::string> fields(1);
@@ -49,6 +53,7 @@ std::vector<std::string> KnownColumns() {
   std::vector<std::string> names{"id"};
   for (const NumberColumn& c : kNumbers) names.emplace_back(c.name);
   names.insert(names.end(), std::begin(kAxes), std::end(kAxes));
+  names.insert(names.end(), std::begin(kRates), std::end(kRates));
   return names;
 }
 
@@ -83,8 +88,8 @@ class Reader {
                        std::to_string(names_.size()) + " as in the header");
     }
     SensorReading reading;
-    Eigen::Vector3d acceleration;
-    int axes = 0;
+    Eigen::Vector3d acceleration, rotation;
+    int axes = 0, rates = 0;
     for (std::size_t i = 0; i < fields.size(); ++i) {
       const std::string field = place + ": " + names_[i];
       if (names_[i] == "id") {
@@ -99,11 +104,16 @@ class Reader {
         if (names_[i] == c.name) reading.*c.field = Number(fields[i], field, c.lower, c.upper);
       }
       for (int axis = 0; axis < 3; ++axis) {
-        if (names_[i] != kAxes[axis]) continue;
-        acceleration[axis] = Number(fields[i], field, -kAny, kAny);
-        ++axes;
+        if (names_[i] == kAxes[axis]) {
+          acceleration[axis] = Number(fields[i], field, -kAny, kAny);
+          ++axes;
+        } else if (names_[i] == kRates[axis]) {
+          rotation[axis] = Number(fields[i], field, -kFastestRadS, kFastestRadS);
+          ++rates;
+        }
       }
     }
+    if (rates == 3) reading.rotation_rad_s = rotation;
     if (axes == 3 && acceleration.norm() > 0.0) reading.acceleration = acceleration;
     return reading;
   }

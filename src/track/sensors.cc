@@ -31,6 +31,13 @@ void SensorOptions::Validate() const {
   RequireOneOf(
       "roll_sense", roll_sense, {"clockwise", "counterclockwise"}, "clockwise or counterclockwise");
   RequireOneOf("held", held, {"portrait", "landscape"}, "portrait or landscape");
+  RequireOneOf("attitude", attitude, {"instruments", "gyroscope"}, "instruments or gyroscope");
+  if (!(gyro_time_constant_s > 0.0)) {
+    throw InputError("",
+                     "sensors.gyro_time_constant_s",
+                     std::to_string(gyro_time_constant_s),
+                     "more than 0");
+  }
   RequireOneOf(
       "height_source", height_source, {"dtm", "gnss", "barometer"}, "dtm, gnss or barometer");
   if (!(std::abs(declination_deg) <= 180.0)) {

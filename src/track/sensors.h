@@ -27,6 +27,8 @@ struct SensorReading {
   std::optional<double> roll_deg;     // see roll_sense
   std::optional<Eigen::Vector3d> acceleration;  // device axes; at rest upward, any unit
   std::optional<double> pressure_hpa;
+  std::optional<Eigen::Vector3d> rotation_rad_s;  // device axes, right-handed
+  std::optional<double> speed_m_s;  // of the wheels; backward: negative
 };
 
 struct SensorOptions {
@@ -38,6 +40,10 @@ struct SensorOptions {
   std::string roll_sense = "clockwise";
   // How the device is held: "portrait", or "landscape" (turned left, its top to the left).
   std::string held = "portrait";
+  // Heading, pitch and roll: "instruments", or "gyroscope": integrated, and pulled back to the
+  // instruments with the time constant (gyroscope.h).
+  std::string attitude = "instruments";
+  double gyro_time_constant_s = 10.0;
   // Where the height comes from: "dtm" (terrain and camera_height_m), "gnss", or "barometer"
   // (height differences to the first reading with a pressure, which is taken to be at the terrain's
   // height).
@@ -49,6 +55,8 @@ struct SensorOptions {
     v.Field("declination_deg", declination_deg);
     v.Field("roll_sense", roll_sense);
     v.Field("held", held);
+    v.Field("attitude", attitude);
+    v.Field("gyro_time_constant_s", gyro_time_constant_s);
     v.Field("height_source", height_source);
     v.Field("camera_height_m", camera_height_m);
   }
@@ -57,7 +65,8 @@ struct SensorOptions {
 };
 
 // Reads a CSV with a header; '#' starts a comment line. Columns: id, time_s, lat_deg, lon_deg,
-// alt_m, compass_heading_deg, pitch_deg, roll_deg, acc_x, acc_y, acc_z, pressure_hpa; all but id
+// alt_m, compass_heading_deg, pitch_deg, roll_deg, acc_x, acc_y, acc_z, gyro_x, gyro_y, gyro_z,
+// pressure_hpa, speed_m_s; all but id
 // are optional, and empty fields are missing values. Throws InputError naming line and column for
 // unknown or repeated columns, rows of a wrong length, values that are not numbers or out of range,
 // and two rows with one id.

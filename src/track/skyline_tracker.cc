@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "track/skyline_tracker.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "base/error.h"
+#include "track/rendered_skyline.h"
 
 namespace ridgeline {
 namespace {
@@ -28,6 +30,7 @@ SkylineTrackOptions::SkylineTrackOptions() {
 
 void SkylineTrackOptions::Visit(OptionVisitor& v) {
   v.Field("extractor", extractor);
+  v.Field("virtual_skyline", virtual_skyline);
   v.Field("start", start);
   v.Field("keyframe_every", keyframe_every);
   v.Group("skyline", [&](OptionVisitor& g) { skyline.Visit(g); });
@@ -37,8 +40,11 @@ void SkylineTrackOptions::Visit(OptionVisitor& v) {
 }
 
 void SkylineTrackOptions::Validate() const {
-  if (extractor != "path" && extractor != "canny") {
-    throw InputError("", "extractor", '"' + extractor + '"', "path or canny");
+  if (extractor != "path" && extractor != "canny" && extractor != "file") {
+    throw InputError("", "extractor", '"' + extractor + '"', "path, canny or file");
+  }
+  if (virtual_skyline != "exact" && virtual_skyline != "rendered") {
+    throw InputError("", "virtual_skyline", '"' + virtual_skyline + '"', "exact or rendered");
   }
   if (start != "sensors" && start != "last") {
     throw InputError("", "start", '"' + start + '"', "sensors or last");
@@ -76,11 +82,16 @@ SkylineTracker::Correction SkylineTracker::Between(const Pose& sensors, const Po
 
 SkylineFrame SkylineTracker::Track(const cv::Mat& bgr,
                                    const PinholeCamera& camera,
-                                   const Pose& sensors) {
+                                   const Pose& sensors,
+                                   const Skyline* given) {
   SkylineFrame frame;
   const Clock::time_point begin = Clock::now();
-  frame.skyline = options_.extractor == "canny" ? ExtractCannySkyline(bgr, options_.canny)
-                                                : ExtractSkyline(bgr, options_.skyline);
+  if (given != nullptr) {
+    frame.skyline = *given;
+  } else {
+    frame.skyline = options_.extractor == "canny" ? ExtractCannySkyline(bgr, options_.canny)
+                                                  : ExtractSkyline(bgr, options_.skyline);
+  }
   frame.times.extract_ms = MillisecondsSince(begin);
 
   const Clock::time_point extracted = Clock::now();
@@ -96,7 +107,7 @@ SkylineFrame SkylineTracker::Track(const cv::Mat& bgr,
     SkylineMatchOptions match = options_.match;
     // The last frame's position, not the sensors'.
     if (keys) match.position_sigma_m = kCarriedPositionSigmaM;
-    frame.match = MatchSkyline(l1, Source(), frame.start, match);
+    frame.match = MatchSkyline(l1, Source(camera), frame.start, match);
     ++frames_since_key_;
   }
   // A frame that three angles cannot match is a key frame too.
@@ -104,7 +115,7 @@ SkylineFrame SkylineTracker::Track(const cv::Mat& bgr,
     SkylineMatchOptions match = options_.match;
     match.method = "6dof";
     frame.method = SkylineMatch::k6dof;
-    frame.match = MatchSkyline(l1, Source(), frame.start, match);
+    frame.match = MatchSkyline(l1, Source(camera), frame.start, match);
     frames_since_key_ = 1;
   }
   frame.times.match_ms = MillisecondsSince(cleaned);
@@ -116,7 +127,14 @@ SkylineFrame SkylineTracker::Track(const cv::Mat& bgr,
   return frame;
 }
 
-SkylineSource SkylineTracker::Source() const {
+SkylineSource SkylineTracker::Source(const PinholeCamera& camera) const {
+  if (options_.virtual_skyline == "rendered") {
+    const double px_per_rad =
+        camera.fx * std::min(1.0, static_cast<double>(options_.canny.work_width_px) / camera.width);
+    return [this, px_per_rad](const Eigen::Vector3d& position, const Sector& sector) {
+      return RenderedSkyline(scene_, position, sector, px_per_rad, options_.canny);
+    };
+  }
   return [this](const Eigen::Vector3d& position, const Sector& sector) {
     return SkylineDirections(scene_.SkylineFrom(position, sector));
   };
@@ -128,7 +146,7 @@ SkylineDistances SkylineTracker::DistancesAt(const Skyline& skyline,
   SkylineL1Options plain = options_.l1;
   plain.robust = false;
   const auto at_pose = [&](const SkylineL1Options& l1) {
-    return DistanceAt(SkylineL1(skyline, camera, l1), Source(), cam_from_local, options_.match);
+    return DistanceAt(SkylineL1(skyline, camera, l1), Source(camera), cam_from_local, options_.match);
   };
   return {at_pose(options_.l1), at_pose(plain)};
 }

@@ -16,8 +16,11 @@
 namespace ridgeline {
 
 struct SkylineTrackOptions {
-  // "path": ours; "canny": the paper's.
+  // "path": ours; "canny": the paper's; "file": found by another program (skyline_file.h).
   std::string extractor = "path";
+  // The model's skyline: "exact" from its edges, or "rendered": extracted from images of the model by
+  // the paper's way (rendered_skyline.h), which is slow.
+  std::string virtual_skyline = "exact";
   // Where a frame's match begins: "sensors", or "last": the sensors with what the last good match
   // corrected (the paper's outlook), since their errors drift slowly.
   std::string start = "last";
@@ -69,7 +72,11 @@ class SkylineTracker {
 
   // @param sensors  The pose by the sensors, cam_from_local.
   // @param bgr  CV_8UC3, without distortion.
-  SkylineFrame Track(const cv::Mat& bgr, const PinholeCamera& camera, const Pose& sensors);
+  // @param given  The picture's skyline, for extractor "file".
+  SkylineFrame Track(const cv::Mat& bgr,
+                     const PinholeCamera& camera,
+                     const Pose& sensors,
+                     const Skyline* given = nullptr);
 
   // Distances of a skyline that was found in a picture of this camera, e.g. at the true pose.
   SkylineDistances DistancesAt(const Skyline& skyline,
@@ -77,7 +84,7 @@ class SkylineTracker {
                                const Pose& cam_from_local) const;
 
  private:
-  SkylineSource Source() const;
+  SkylineSource Source(const PinholeCamera& camera) const;
 
   const Scene& scene_;
   const SkylineTrackOptions options_;

@@ -334,6 +334,39 @@ TEST(RasterKind, PipesAreNotWaitedFor) {
   EXPECT_THROW(DescribeRaster("/dev/zero"), InputError);
 }
 
+// GDAL opens what a VRT names, at any depth.
+TEST(RasterKind, APipeBehindAVrtIsNoTerrain) {
+  const TestFolder folder;
+  const std::filesystem::path pipe = folder.path() / "pipe.tif";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const auto vrt = [](const std::string& source) {
+    return "<VRTDataset rasterXSize=\"9\" rasterYSize=\"9\"><VRTRasterBand dataType=\"Float32\" "
+           "band=\"1\"><SimpleSource><SourceFilename relativeToVRT=\"1\">" +
+           source + "</SourceFilename></SimpleSource></VRTRasterBand></VRTDataset>";
+  };
+  EXPECT_THAT(ErrorOf(folder.Write("direct.vrt", vrt("pipe.tif"))),
+              HasSubstr("direct.vrt: SourceFilename: got the pipe or device"));
+  EXPECT_THAT(ErrorOf(folder.Write("behind.vrt", vrt("direct.vrt"))),
+              HasSubstr("behind.vrt: SourceFilename: got the pipe or device"));
+  EXPECT_THAT(ErrorOf(folder.Write("letters.vrt", vrt("p&#105;pe.tif"))),
+              HasSubstr("got the pipe or device"));
+  // One that names itself ends, too.
+  EXPECT_NE(ErrorOf(folder.Write("circle.vrt", vrt("circle.vrt"))), "");
+}
+
+// Names that GDAL would take for servers, data bases and documents of its own.
+TEST(RasterKind, NamesThatAreNoFilesAreNotOpened) {
+  for (const char* name : {"PG:host=127.0.0.1",
+                           "/vsicurl/http://127.0.0.1:1/a.tif",
+                           "/vsizip//vsicurl/http://127.0.0.1:1/a.zip/a.tif",
+                           "/vsistdin/",
+                           "WMS:http://127.0.0.1:1/",
+                           "<VRTDataset rasterXSize=\"5\" rasterYSize=\"5\"></VRTDataset>"}) {
+    EXPECT_THAT(ErrorOf(name), HasSubstr("got a name that is no file on this machine")) << name;
+  }
+  EXPECT_THAT(ErrorOf("/vsizip/no.zip/a.tif"), HasSubstr("got no such file in the archive"));
+}
+
 TEST(RasterKind, InfoSaysSo) {
   const TestFolder folder;
   Spec several;
@@ -367,6 +400,30 @@ TEST(RasterLimit, HugeRastersAreReadNearThePlaceOnly) {
     FAIL();
   } catch (const InputError& e) {
     EXPECT_THAT(e.what(), HasSubstr("huge.tif: limit: got 90"));
+  }
+}
+
+// 10^8 cells of 1 m x 1 mm would become as many of 3 cm, held several times.
+TEST(RasterLimit, GridsThatAreTurnedAreBoundedByWhatComesOut) {
+  const TestFolder folder;
+  const auto vrt = [&](const std::string& name, const std::string& transform) {
+    return folder.Write(name,
+                        "<VRTDataset rasterXSize=\"1000\" rasterYSize=\"100000\"><GeoTransform>" +
+                            transform +
+                            "</GeoTransform><VRTRasterBand dataType=\"Float32\" band=\"1\"/>"
+                            "</VRTDataset>");
+  };
+  CityModel model;
+  model.crs = {25832, 0};
+  model.origin_in_world = {654000.0, 5412000.0, 400.0};
+  const std::filesystem::path file = vrt("long.vrt", "653500, 1, 0, 5412050, 0, -0.001");
+  std::vector<std::string> warnings;
+  try {
+    ReadDtm(file, model, {-450.0, -45.0}, {450.0, 45.0}, 0.0, warnings);
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("long.vrt: limit: got "));
+    EXPECT_THAT(e.what(), HasSubstr("a grid that is not square and north up"));
   }
 }
 

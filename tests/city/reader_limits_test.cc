@@ -113,6 +113,29 @@ TEST(ReaderLimits, FilesThatGrowWithoutEndWhenUnpacked) {
   EXPECT_THAT(ErrorOf(file), HasSubstr("bomb.gml.gz: limit: got a file that grows"));
 }
 
+// A template of 3000 corners drawn 4000 times: 12 million points come out of a few kilobytes.
+TEST(ReaderLimits, TemplatesDrawnThousandsOfTimes) {
+  const std::string surfaces = Repeated("[[0,1,2]],", 999) + "[[0,1,2]]";
+  const std::string instance =
+      R"({"type":"GeometryInstance","template":0,"boundaries":[0],"transformationMatrix":)"
+      "[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}";
+  const std::string text =
+      R"({"type":"CityJSON","version":"1.1","vertices":[[0,0,0]],"geometry-templates":{)"
+      R"("vertices-templates":[[0,0,0],[1,0,0],[1,1,1]],"templates":[{"type":"MultiSurface",)"
+      R"("lod":"2","boundaries":[)" +
+      surfaces + R"(]}]},"CityObjects":{"b":{"type":"Building","geometry":[)" +
+      Repeated(instance + ",", 3999) + instance + "]}}}";
+  EXPECT_THAT(ErrorOf("a.json", text),
+              HasSubstr("a.json: limit: got templates that stand for more than 10000000 points"));
+}
+
+TEST(ReaderLimits, AKeyTwice) {
+  EXPECT_THAT(ErrorOf("a.json",
+                      R"({"type":"CityJSON","version":"1.1","vertices":[],"CityObjects":{)"
+                      R"("b":{"type":"Building"},"b":{"type":"Building"}}})"),
+              HasSubstr("a.json: got the key \"b\" twice"));
+}
+
 TEST(ReaderLimits, OnlyRegularFiles) {
   EXPECT_THAT(ErrorOf("/dev/zero"), HasSubstr("a pipe or a device"));
   const TestFolder folder;

@@ -100,6 +100,40 @@ TEST_F(WebFiles, OfASilentServerAreGivenUp) {
   EXPECT_EQ(Kept(), 0u);
 }
 
+TEST_F(WebFiles, OfAServerThatDripsAreGivenUp) {
+  WebServer server(Files{{"a.txt", "x"}});
+  EXPECT_THAT(ErrorOf(server.address() + "/drip/a.txt"), HasSubstr("/drip/a.txt: got "));
+  EXPECT_EQ(Kept(), 0u);
+}
+
+TEST_F(WebFiles, ThatAreMovedToThisMachineAreNotTaken) {
+  WebServer server(Files{{"a.txt", "x"}});
+  EXPECT_THAT(ErrorOf(server.address() + "/moved/a.txt"), HasSubstr("/moved/a.txt: got "));
+  EXPECT_EQ(Kept(), 0u);
+}
+
+TEST_F(WebFiles, WithoutEndAreCutAtTheLimit) {
+  options_.most_bytes = 1'000'000;
+  WebServer server(Files{{"a.txt", "x"}});
+  EXPECT_THAT(ErrorOf(server.address() + "/endless/a.txt"),
+              HasSubstr("/endless/a.txt: got more than 1000000 bytes (limit)"));
+  EXPECT_EQ(Kept(), 0u);
+}
+
+// A server packs 100 MB into 100 kB. Whether the client unpacks them or not, what is kept is small.
+TEST_F(WebFiles, PackedOnTheWayAreCountedUnpacked) {
+  options_.most_bytes = 1'000'000;
+  WebServer server(Files{{"a.txt", "x"}});
+  const std::string error = ErrorOf(server.address() + "/gzip/a.txt");
+  if (error.empty()) {
+    const auto file = FetchWebFile(server.address() + "/gzip/a.txt", options_);
+    EXPECT_LE(fs::file_size(file->path), options_.most_bytes);
+  } else {
+    EXPECT_THAT(error, HasSubstr("got more than 1000000 bytes (limit)"));
+    EXPECT_EQ(Kept(), 0u);
+  }
+}
+
 TEST_F(WebFiles, OfABusyServerAreAnError) {
   WebServer server(Files{{"a.txt", "x"}});
   EXPECT_THAT(ErrorOf(server.address() + "/busy/a.txt"), HasSubstr("500"));

@@ -157,8 +157,8 @@ TEST_F(BadInput, DtmThatDoesNotCoverThePrior) {
 TEST_F(BadInput, DtmMissing) {
   dtm_ = folder_ / "nowhere.tif";
   EXPECT_EQ(Message(),
-            "error: nowhere.tif: got a file that GDAL cannot open as a raster, expected a terrain "
-            "model such as a GeoTIFF or a VRT");
+            "error: nowhere.tif: got no such file, expected a terrain model such as a GeoTIFF or a "
+            "VRT");
 }
 
 TEST_F(BadInput, ImageMissing) {
@@ -235,7 +235,7 @@ TEST_F(BadInput, PriorThatIsNoNumber) {
             "JSON (there is no NaN in it)");
   prior_ = Write("infinite.json", R"({"position": [1e999, 5412033.0]})");
   EXPECT_EQ(Message(),
-            "error: infinite.json: got a number that is too large, expected numbers below 1e308");
+            "error: infinite.json: byte 19: got a number that is too large, expected numbers below 1e308");
   prior_ = Write("null.json", R"({"position": [null, 5412033.0]})");
   EXPECT_EQ(Message(), "error: null.json: position[0]: got null, expected a number");
   prior_ = Write("cut.json", R"({"position": [654240.0, )");

@@ -42,15 +42,17 @@ TEST(BenchProgram, NoRightAnswerNoRecall) {
   for (const std::string& protocol :
        {std::string("outside"), "elsewhere --world " + Quoted(Town() / "dataset.json")}) {
     const Outcome outcome =
-        Ridgeline(Bench("--no-report --protocol " + protocol + " --out " + Quoted(out)));
+        Ridgeline(Bench("--no-report --protocol " + protocol + " --out " +
+                        Quoted(out / protocol.substr(0, 7))));
     EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
     EXPECT_THAT(outcome.text, HasSubstr("recall is not defined"));
-    const Json summary = Json::parse(ReadFile(out / "summary.json"));
+    const Json summary =
+        Json::parse(ReadFile(out / protocol.substr(0, 7) / "summary.json"));
     EXPECT_TRUE(summary["recall"].is_null());
     const Json wrong = summary["confidence_0.9"]["wrong"];
     EXPECT_GE(wrong["share"], 0.0);
     EXPECT_LT(wrong["ci95"][0], wrong["ci95"][1]);
-    EXPECT_FALSE(fs::exists(out / "report.html"));
+    EXPECT_FALSE(fs::exists(out / protocol.substr(0, 7) / "report.html"));
   }
 }
 

@@ -49,14 +49,19 @@ const std::map<std::string, std::string>& Bases() {
       {"bench", "bench {town}/dataset.json --out {out}/r" + kQuick},
       {"study",
        "study {town}/dataset.json --score line_energy --perturb 1,1,0,2 --classes 4 --out {out}/r"},
+      {"merge", "merge {results}/part1 {results}/part2 --out {out}/r"},
+      {"compare", "compare {results}/a {results}/b --out {out}/r"},
+      {"verify", "verify {results}/a"},
       {"index", "index {town}/city.gml --out {out}/c.gpkg"},
       {"info", "info {town}/city.gml"},
       {"convert", "convert {town}/dataset.json --out {out}/x.kml"},
       {"render", "render --dataset {town}/dataset.json --query street_000 --out {out}/e.svg"},
       {"skyline", "skyline --dataset {town}/dataset.json --out {out}/f"},
+      {"track", "track {town}/dataset.json --out {out}/f --set track.start_m=6"},
       {"augment",
        "augment --dataset {town}/dataset.json --query street_000 --building {in}/box.obj --place "
        "{place} --light-azimuth 60 --out {out}/a.png"},
+      {"calibrate", "calibrate {in}/boards --board 5x4 --out {out}/c.json"},
       {"synth",
        "synth --out {out}/t --size 64x64 --queries 0 --tilted 0 --portrait 0 --drone 0" +
            kOneBlock},
@@ -79,6 +84,7 @@ const std::map<std::string, std::map<std::string, std::string>>& Cases() {
         {"--prior", "--prior {in}/moved.json"},
         {"--declination", "--declination 3"},
         {"--lines", "--lines {in}/lines.txt"},
+        {"--sensors", "--sensors {in}/none.csv"},
         {"--out", "--out {out}/other"},
         {"--report", "--report {out}/r.html"},
         {"--seed", "--seed 2"},
@@ -90,7 +96,11 @@ const std::map<std::string, std::map<std::string, std::string>>& Cases() {
         {"--perturb", "--perturb 1,1,0,2"},
         {"--protocol", "--protocol known-tilt"},
         {"--world", "--world {town}/dataset.json"},
+        {"--sensors", "--sensors {in}/none.csv"},
         {"--no-report", "--no-report"},
+        {"--query", "--query none"},
+        {"--set-name", "--set-name none"},
+        {"--shard", "--shard 2/2"},
         {"--seed", "--seed 2"},
         {"--seeds", "--seeds 2"},
         {"--score-only", "--score-only {in}/poses.csv"},
@@ -103,6 +113,8 @@ const std::map<std::string, std::map<std::string, std::string>>& Cases() {
        {{"dataset", "--=study {in}/none.json"},
         {"--score", "--score skyline_l1"},
         {"--query", "--query none"},
+        {"--set-name", "--set-name none"},
+        {"--shard", "--shard 2/2"},
         {"--out", "--out {out}/other"},
         {"--report", "--report {out}/s.html"},
         {"--perturb", "--perturb 1,1,0,4"},
@@ -113,6 +125,17 @@ const std::map<std::string, std::map<std::string, std::string>>& Cases() {
         {"--explore", "--explore"},
         {"--config", "--config {in}/config.json"},
         {"--set", "--set search.map.heading_step_deg=2"}}},
+      {"merge",
+       {{"folders", "--=merge {results}/a {results}/part2"},
+        {"--out", "--out {out}/other"},
+        {"--report", "--report {out}/m.html"},
+        {"--no-report", "--no-report"}}},
+      {"compare",
+       {{"results", "--=compare {results}/b {results}/a"},
+        {"--name", "--name one,two"},
+        {"--out", "--out {out}/other"},
+        {"--dataset", "--dataset {in}/none.json"}}},
+      {"verify", {{"folder", "--=verify {in}"}, {"--rerun", "--rerun 1"}}},
       {"index",
        {{"tiles", "--=index {in}/none.gml"},
         {"--out", "--out {out}/other.gpkg"},
@@ -166,8 +189,28 @@ const std::map<std::string, std::map<std::string, std::string>>& Cases() {
         {"--report", "--report {out}/k.html"},
         {"--overlays", "--overlays"},
         {"--columns", "--columns"},
+        {"--skylines", "--skylines {in}"},
         {"--config", "--config {in}/none.json"},
         {"--set", "--set match.rounds=none"}}},
+      {"track",
+       {{"input", "--=track {in}/none.json"},
+        {"--odometry", "--odometry {in}/none.csv"},
+        {"--sensors", "--sensors {in}/none.csv"},
+        {"--prior", "--prior {in}/moved.json"},
+        {"--model", "--model {in}/none.gml"},
+        {"--dtm", "--dtm {in}/none.tif"},
+        {"--crs", "--crs EPSG:25833"},
+        {"--camera", "--camera {in}/longer.json"},
+        {"--out", "--out {out}/other"},
+        {"--report", "--report {out}/k.html"},
+        {"--film", "--film {out}/f.mp4"},
+        {"--nmea", "--nmea {out}/n.txt"},
+        {"--json-lines", "--json-lines {out}/j.txt"},
+        {"--follow", "--follow"},
+        {"--idle", "--follow --idle 0"},
+        {"--seed", "--seed 2"},
+        {"--config", "--config {in}/none.json"},
+        {"--set", "--set track.start_m=3"}}},
       {"augment",
        {{"--dataset", "--dataset {in}/none.json"},
         {"--query", "--query none"},
@@ -185,7 +228,27 @@ const std::map<std::string, std::map<std::string, std::string>>& Cases() {
         {"--light-azimuth", "--light-azimuth 90"},
         {"--light-elevation", "--light-elevation 80"},
         {"--opacity", "--opacity 0.5"},
+        {"--y-up", "--y-up"},
+        {"--sun", "--sun noon"},
+        {"--shadows", "--shadows --light-elevation 12"},
+        {"--samples", "--samples 4"},
+        {"--reveal", "--reveal 2"},
+        {"--foreground", "--foreground {in}/none.png"},
+        {"--impact", "--impact {out}/impact.csv"},
+        {"--film", "--film {out}/film.mp4"},
+        {"--frames", "--frames {town}/images"},
+        {"--poses", "--poses {in}/none.csv"},
+        {"--sensors", "--sensors {in}/none.csv"},
+        {"--stability", "--stability {out}/stability.csv"},
+        {"--set", "--set sensors.held=portrait"},
         {"--out", "--out {out}/other.png"}}},
+      {"calibrate",
+       {{"frames", "--=calibrate {town}/images"},
+        {"--board", "--board 6x5"},
+        {"--lens", "--lens pinhole"},
+        {"--views", "--views 5"},
+        {"--every", "--every 2"},
+        {"--out", "--out {out}/other.json"}}},
       {"synth",
        {{"--out", "--out {out}/other"},
         {"--seed", "--seed 2"},
@@ -194,6 +257,8 @@ const std::map<std::string, std::map<std::string, std::string>>& Cases() {
         {"--portrait", "--portrait 1"},
         {"--drone", "--drone 1"},
         {"--walk", "--walk 2"},
+        {"--drive", "--drive 2"},
+        {"--flight", "--flight 2"},
         {"--layout", "--layout egenioussbench"},
         {"--size", "--size 12by9"},
         {"--buildings", "--buildings 40"},
@@ -208,7 +273,23 @@ const std::map<std::string, std::map<std::string, std::string>>& Cases() {
 // Options that do not touch results: by contract the same on any number of threads, or about what
 // is said of the work; tested as such elsewhere (program_test.cc).
 const std::set<std::string> kNotOfResults = {
-    "--help", "--help-all", "--version", "--quiet", "--json", "--threads", "doctor --quick"};
+    "--help", "--help-all", "--version", "--quiet", "--json", "--threads", "doctor --quick",
+    "version --verbose", "bench --resume", "study --resume"};
+
+// Results of bench: the same with two searches, and one of them in two parts; made once.
+const fs::path& Results() {
+  static const fs::path results = [] {
+    const fs::path folder = Scratch("options results");
+    const std::string bench =
+        "bench --no-report " + Quoted(Town() / "dataset.json") + " --seeds 2" + kQuick + " --out ";
+    Ridgeline(bench + Quoted(folder / "a"));
+    Ridgeline(bench + Quoted(folder / "b") + " --set search.evaluations=16");
+    Ridgeline(bench + Quoted(folder / "part1") + " --shard 1/2");
+    Ridgeline(bench + Quoted(folder / "part2") + " --shard 2/2");
+    return folder;
+  }();
+  return results;
+}
 
 class Options : public ::testing::Test {
  protected:
@@ -242,9 +323,39 @@ class Options : public ::testing::Test {
           R"({"search": {"heading_deg": 7, "map": {"heading_step_deg": 2}},
               "confidence": {"floor_m": 0.7}})");
     Write("poses.csv", "query,e,n,h,qw,qx,qy,qz\nstreet_000,1,2,3,1,0,0,0\n");
+    WriteBoards();
     Write("box.obj",
           "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 0 0 9\nv 4 0 9\nv 4 4 9\nv 0 4 9\n"
           "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+  }
+
+  // Eight views of a checkerboard of 5 x 4 inner corners.
+  void WriteBoards() const {
+    constexpr int kSquarePx = 30;
+    cv::Mat board(7 * kSquarePx, 8 * kSquarePx, CV_8U, cv::Scalar(240));
+    for (int row = 0; row < 5; ++row) {
+      for (int column = 0; column < 6; ++column) {
+        if ((row + column) % 2 == 1) continue;
+        board(cv::Rect((column + 1) * kSquarePx, (row + 1) * kSquarePx, kSquarePx, kSquarePx)) = 20;
+      }
+    }
+    fs::create_directories(in_ / "boards");
+    const float w = static_cast<float>(board.cols), h = static_cast<float>(board.rows);
+    const std::vector<cv::Point2f> flat = {{0, 0}, {w, 0}, {w, h}, {0, h}};
+    for (int i = 0; i < 8; ++i) {
+      const float a = 12.0f * static_cast<float>(i % 4), b = 9.0f * static_cast<float>(i / 2);
+      const std::vector<cv::Point2f> seen = {
+          {20 + a, 30 + b}, {280 - b, 20 + a}, {290 - a, 220 - 0.5f * b}, {15 + b, 215 - a}};
+      cv::Mat picture;
+      cv::warpPerspective(board,
+                          picture,
+                          cv::getPerspectiveTransform(flat, seen),
+                          cv::Size(320, 240),
+                          cv::INTER_AREA,
+                          cv::BORDER_CONSTANT,
+                          cv::Scalar(200));
+      cv::imwrite((in_ / "boards" / (std::to_string(i) + ".png")).string(), picture);
+    }
   }
 
   void Write(const std::string& name, const std::string& text) const {
@@ -259,6 +370,7 @@ class Options : public ::testing::Test {
       for (const auto& [name, value] : {std::pair<std::string, std::string>{"{in}", in_.string()},
                                         {"{out}", out_.string()},
                                         {"{town}", Town().string()},
+                                        {"{results}", Results().string()},
                                         {"{place}", place_},
                                         {"{here}", here_},
                                         {"{turned}", turned_}}) {
@@ -277,7 +389,8 @@ class Options : public ::testing::Test {
     EXPECT_NE(outcome.exit_code, 1) << outcome.text;
     std::string seen = std::to_string(outcome.exit_code) + "\n";
     const std::string& command = words.front();
-    const bool text_is_result = command == "info" || command == "options" || command == "completion";
+    const bool text_is_result = command == "info" || command == "options" ||
+                                command == "completion" || command == "verify";
     if (text_is_result || outcome.exit_code == 2) seen += outcome.text;
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(out_)) {
@@ -299,6 +412,7 @@ class Options : public ::testing::Test {
     static const std::set<std::string> timed = {
         "summary.json", "results.csv", "frames.csv", "figures.csv", "summary.csv"};
     static const std::set<std::string> kinds = {".html", ".mp4", ".gpkg"};
+    if (file.parent_path().filename() == "runs") return "";
     if (timed.contains(name) || kinds.contains(file.extension())) return "";
     return ReadFile(file);
   }

@@ -67,7 +67,9 @@ TEST(Program, HelpOfEveryCommandFitsAScreenAndHasAnExample) {
     const std::string name = line.substr(2, line.find(' ', 2) - 2);
     const Outcome outcome = Ridgeline(name + " --help");
     EXPECT_EQ(outcome.exit_code, 0) << name;
-    EXPECT_THAT(outcome.text, HasSubstr("Example:\n  ridgeline " + name)) << name;
+    const std::size_t example = outcome.text.find("Example:\n");
+    ASSERT_NE(example, std::string::npos) << name;
+    EXPECT_THAT(outcome.text.substr(example), HasSubstr("ridgeline " + name)) << name;
     EXPECT_LE(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 50) << name;
     ++commands;
   }
@@ -78,6 +80,19 @@ TEST(Program, JsonIsJsonAndNothingElse) {
   const auto json = nlohmann::json::parse(Ridgeline("version --json").text, nullptr, false);
   ASSERT_FALSE(json.is_discarded());
   EXPECT_TRUE(json.contains("ridgeline"));
+}
+
+TEST(Program, NamesItsLibrariesWithVersionsAndLicences) {
+  const auto json =
+      nlohmann::json::parse(Ridgeline("version --verbose --json").text, nullptr, false);
+  ASSERT_TRUE(json.contains("libraries"));
+  std::size_t with_version = 0;
+  for (const auto& library : json["libraries"]) {
+    EXPECT_NE(library["licence"], "") << library;
+    if (library["version"] != "") ++with_version;
+  }
+  EXPECT_GE(with_version, 11u);
+  EXPECT_THAT(Ridgeline("version --verbose").text, HasSubstr("gdal 3"));
 }
 
 TEST(Program, WritesNoColoursIntoAPipe) {
@@ -202,8 +217,18 @@ TEST(Skyline, ReportsFramesWithoutAModelToo) {
                 Quoted(folder / "out") + " --report " + Quoted(folder / "skyline.html"));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_GT(fs::file_size(folder / "skyline.html"), 10000u);
+  // Folders are made: another one, and that of the frames, which comes last.
+  for (const fs::path& report : {folder / "new" / "x.html", folder / "frames" / "x.html"}) {
+    fs::remove_all(folder / "frames");
+    const Outcome made = Ridgeline("skyline --quiet --frames " + Quoted(Town() / "images") +
+                                   " --out " + Quoted(folder / "frames") + " --report " +
+                                   Quoted(report));
+    EXPECT_EQ(made.exit_code, 0) << made.text;
+    EXPECT_TRUE(fs::exists(report)) << report;
+  }
+  std::ofstream(folder / "file") << "no folder";
   EXPECT_EQ(Ridgeline("skyline --frames " + Quoted(Town() / "images") + " --out " +
-                      Quoted(folder / "other") + " --report " + Quoted(folder / "none" / "x.html"))
+                      Quoted(folder / "other") + " --report " + Quoted(folder / "file" / "x.html"))
                 .exit_code,
             2);
   EXPECT_FALSE(fs::exists(folder / "other"));
@@ -234,6 +259,7 @@ TEST(Study, WritesTablesPicturesMapsAndAReport) {
                            "sensitivity_summary.csv",
                            "sensitivity_focal.png",
                            "score_against_error_sky.png",
+                           "score_against_error_sky.svg",
                            "maps/street_000_sky.csv",
                            "maps/street_000_sky.png",
                            "maps/street_000_skyline_l1.tif",

@@ -58,7 +58,7 @@ TEST(SkylineSequence, GapsHaveAReasonAndNoPose) {
     while (std::getline(all, line)) {
       if (line.rfind("frame_0003,", 0) == 0) continue;
       // A row without a compass.
-      if (line.rfind("frame_0004,", 0) == 0) line = "frame_0004,0.8,48.8419,11.1012,,,,,,,,";
+      if (line.rfind("frame_0004,", 0) == 0) line = "frame_0004,0.8,48.8419,11.1012,,,,,,,,,,,,";
       some << line << '\n';
     }
   }

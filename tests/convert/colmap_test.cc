@@ -119,8 +119,8 @@ TEST_F(Colmap, ModelComesBackExactly) {
   WriteOutput(dataset, "colmap", {}, folder_ / "one");
   const Dataset again = ReadInput(folder_ / "one", "", {});
   WriteOutput(again, "colmap", {}, folder_ / "two");
-  const Pose& a = *ReadColmapModel(folder_ / "one", {}).queries[0].truth;
-  const Pose& b = *ReadColmapModel(folder_ / "two", {}).queries[0].truth;
+  const Pose a = *ReadColmapModel(folder_ / "one", {}).queries[0].truth;
+  const Pose b = *ReadColmapModel(folder_ / "two", {}).queries[0].truth;
   EXPECT_EQ(Text("one/cameras.txt"), Text("two/cameras.txt"));
   EXPECT_EQ(a.cam_from_world.coeffs(), b.cam_from_world.coeffs());
   // World coordinates of 5e6 m have steps of 1e-9 m.

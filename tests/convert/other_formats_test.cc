@@ -177,7 +177,7 @@ TEST_F(Convert, BadReconstructionsNameThePlace) {
   EXPECT_THAT(error(good, ""), HasSubstr("--crs: got nothing, expected a projected system"));
   for (std::size_t tenth = 1; tenth < 10; ++tenth) {
     EXPECT_THAT(error(good.substr(0, good.size() * tenth / 10)),
-                HasSubstr("r.json: got text that"));
+                HasSubstr("got a file that ends early"));
   }
   EXPECT_THAT(error("{}"), HasSubstr("r.json: got object, expected a list of reconstructions"));
   EXPECT_THAT(error("[{\"cameras\": {}, \"shots\": {}}]"),

@@ -93,7 +93,7 @@ TEST(Dataset, BadInputIsNamedByItsPlace) {
             "height]");
   EXPECT_EQ(MessageOf(Replaced("\"width\": 640", "\"width\": 640.5")),
             "queries[0].camera.width: got 640.5, expected a whole number");
-  EXPECT_EQ(MessageOf(Replaced("\"image\"", "\"set\": \"x\", \"lines\"")),
+  EXPECT_EQ(MessageOf(Replaced("\"image\"", "\"lines\"")),
             "queries[0].image: got nothing, expected this key");
   EXPECT_EQ(MessageOf(Replaced("[0.5, -0.5, 0.5, -0.5]", "[0.5, -0.5, 0.5, 0.9]")).substr(0, 44),
             "queries[0].truth.cam_from_world_wxyz: got no");

@@ -113,5 +113,12 @@ TEST(LineDetectionOptions, BadValuesAreNamed) {
   EXPECT_THROW(options.Validate(), InputError);
 }
 
+TEST(DetectorTable, ANameThatIsTakenIsRefused) {
+  const std::size_t before = DetectorTable().size();
+  EXPECT_THROW(AddDetector(*DetectorTable().front()), InputError);
+  EXPECT_THROW(AddDetector({.name = kLinesFromFile, .detect = nullptr}), InputError);
+  EXPECT_EQ(DetectorTable().size(), before);
+}
+
 }  // namespace
 }  // namespace ridgeline

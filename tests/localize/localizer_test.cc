@@ -8,6 +8,8 @@
 #include "city/raise_roofs.h"
 #include "eval/metrics.h"
 #include "eval/pose_json.h"
+#include "optim/sampler_table.h"
+#include "score/score_table.h"
 #include "support/synthetic_city.h"
 
 namespace ridgeline {
@@ -237,22 +239,23 @@ TEST_F(LocalizerOnAStreet, BadInputIsNamed) {
 }
 
 TEST_F(LocalizerOnAStreet, EverySamplerAndScoreRuns) {
-  for (const char* score : {"line_energy",
-                            "skyline_l1",
-                            "line_energy_zbuffer",
-                            "oriented_chamfer",
-                            "gradient",
-                            "unexplained"}) {
+  // Each score by TPE, and each sampler (gp: Gaussian process with expected improvement) on a score.
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (const std::string& score : ScoreNames()) pairs.emplace_back(score, "tpe");
+  for (const std::string& sampler : SamplerNames()) pairs.emplace_back("gradient", sampler);
+  for (const auto& [score, sampler] : pairs) {
     LocalizerOptions options = Options();
     options.score.name = score;
     options.search.method = "sampler";
+    options.search.sampler.name = sampler;
     options.search.evaluations = 20;
     options.search.refine = false;
+    options.search.widenings = 0;
     options.confidence.abstain_below = 0.0;
     const Localizer localizer(model_, std::nullopt, options);
     const Localization found = localizer.Localize(input_, 1, 0);
-    EXPECT_TRUE(found.pose.has_value()) << score << ": " << found.reason;
-    EXPECT_EQ(found.evaluations, 20u);
+    EXPECT_TRUE(found.pose.has_value()) << score << " by " << sampler << ": " << found.reason;
+    EXPECT_EQ(found.evaluations, 20u) << score << " by " << sampler;
     EXPECT_GE(found.energy, 0.0);
     EXPECT_LE(found.energy, 1.0);
   }

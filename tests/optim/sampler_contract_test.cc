@@ -283,5 +283,11 @@ INSTANTIATE_TEST_SUITE_P(All,
                          testing::ValuesIn(SamplerNames()),
                          [](const auto& test) { return test.param; });
 
+TEST(SamplerTable, ANameThatIsTakenIsRefused) {
+  const std::size_t before = SamplerTable().size();
+  EXPECT_THROW(AddSampler(*SamplerTable().front()), InputError);
+  EXPECT_EQ(SamplerTable().size(), before);
+}
+
 }  // namespace
 }  // namespace ridgeline

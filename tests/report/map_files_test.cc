@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
 #include "report/example_report.h"
 #include "report/map_shapes.h"
@@ -50,12 +51,18 @@ TEST(WriteMap, GeoPackageHasALayerPerKindInTheModelsSystem) {
   EXPECT_EQ(data.runs[0].id, first->GetFieldAsString("query"));
 }
 
-TEST(WriteMap, GeoJsonKeepsTheModelsSystem) {
+// RFC 7946: web maps take nothing else.
+TEST(WriteMap, GeoJsonIsInWgs84) {
   const fs::path path = Temp("map.geojson");
   WriteMap(testing::ExampleReport(2).runs, 25832, path);
   const DatasetPtr dataset = Open(path);
   ASSERT_TRUE(dataset);
-  EXPECT_STREQ(dataset->GetLayer(0)->GetSpatialRef()->GetAuthorityCode(nullptr), "25832");
+  EXPECT_STREQ(dataset->GetLayer(0)->GetSpatialRef()->GetAuthorityCode(nullptr), "4326");
+  OGREnvelope extent;
+  ASSERT_EQ(dataset->GetLayer(0)->GetExtent(&extent), OGRERR_NONE);
+  EXPECT_NEAR(extent.MinX, 11.568, 0.01);
+  EXPECT_NEAR(extent.MinY, 48.148, 0.01);
+  EXPECT_EQ(ReadFile(path).find("\"crs\""), std::string::npos);
   EXPECT_GT(dataset->GetLayer(0)->GetFeatureCount(), 10);
 }
 

@@ -45,6 +45,7 @@ int main(int argc, char** argv) {
                          "detector",
                          "share [%]",
                          false,
+                         false,
                          {"lsd", "fld"},
                          {{"evidence", {0, 1}, {80, 70}, {}, true}}});
   WriteHtmlReport(study, folder / "study.html");

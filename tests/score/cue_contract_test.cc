@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "score/cue_table.h"
 #include "score/evidence_score.h"
 #include "score/score_options.h"
@@ -102,6 +103,12 @@ INSTANTIATE_TEST_SUITE_P(All,
 TEST(CueTable, NamesAreTheirOwn) {
   const std::vector<std::string> names = CueNames();
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
+}
+
+TEST(CueTable, ANameThatIsTakenIsRefused) {
+  const std::size_t before = CueTable().size();
+  EXPECT_THROW(AddCue(*CueTable().front()), InputError);
+  EXPECT_EQ(CueTable().size(), before);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 constexpr int kWidthPx = 1000;
 
 // Angle at most 5 degrees, distance at most 10 px.
-LineEnergyOptions Options() { return {5.0, 0.01}; }
+LineEnergyOptions Options() { return {5.0, 0.01, 0.0}; }
 
 LineSegment Horizontal(float y, float x0 = 100.0f, float x1 = 300.0f) {
   return {{x0, y}, {x1, y}, 1.0f};
@@ -88,6 +88,32 @@ TEST(LineEnergy, AgreesWithTheFormulaOnRandomScenes) {
     if (count > 0) sum += scores / count;
   }
   EXPECT_NEAR(EnergyOf(picture, model), 1.0 - sum / 60.0, 1e-5);
+}
+
+TEST(LineEnergy, PairsAreTheCorrespondentsBehindTheEnergy) {
+  const std::vector<LineSegment> picture = {Horizontal(56), Horizontal(90), Horizontal(52)};
+  const std::vector<LineSegment> model = {{{10, 10}, {10, 90}, 1.0f}, Horizontal(50)};
+  const LineEnergy energy(picture, kWidthPx, Options());
+  const auto pairs = energy.Pairs(model);
+  ASSERT_EQ(pairs.size(), 2u);
+  double sum = 0.0;
+  for (const LineEnergy::Pair& pair : pairs) {
+    EXPECT_EQ(pair.model, 1u);
+    EXPECT_NEAR(pair.score, pair.picture == 0 ? 0.4 : 0.8, 1e-6) << pair.picture;
+    sum += pair.score;
+  }
+  EXPECT_NEAR(energy.Energy(model), 1.0 - sum / 2.0 / 2.0, 1e-6);
+}
+
+TEST(LineEnergyOptions, PixelsGoBeforeTheShareOfTheWidth) {
+  LineEnergyOptions options = Options();
+  EXPECT_NEAR(options.DistanceLimitPx(1000), 10.0, 1e-9);
+  options.max_distance_px = 4.0;
+  EXPECT_EQ(options.DistanceLimitPx(1000), 4.0);
+  EXPECT_NEAR(LineEnergy(std::vector<LineSegment>{Horizontal(52)}, kWidthPx, options)
+                  .Energy(std::vector<LineSegment>{Horizontal(50)}),
+              0.5,
+              1e-6);
 }
 
 TEST(LineEnergyOptions, BadValuesAreErrors) {

@@ -152,8 +152,15 @@ TEST(ScoreTable, AnUnknownNameIsRefused) {
   } catch (const InputError& error) {
     EXPECT_EQ(std::string(error.what()),
               "score.name: got \"evidense\", expected one of evidence, line_energy, "
-              "line_energy_zbuffer, skyline_l1, gradient, oriented_chamfer, unexplained");
+              "line_energy_zbuffer, skyline_l1, gradient, oriented_chamfer, unexplained, areas, "
+              "line_energy_rays");
   }
+}
+
+TEST(ScoreTable, ANameThatIsTakenIsRefused) {
+  const std::size_t before = ScoreTable().size();
+  EXPECT_THROW(AddScore(*ScoreTable().front()), InputError);
+  EXPECT_EQ(ScoreTable().size(), before);
 }
 
 TEST(ScoreOptions, WeightsHaveNames) {

@@ -6,6 +6,7 @@
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <array>
 #include <stdexcept>
@@ -16,13 +17,34 @@ namespace {
 
 constexpr const char* kDate = "Mon, 02 Jun 2025 10:00:00 GMT";
 
-void Send(int client, const std::string& text) {
+// False: the client has hung up.
+bool Send(int client, const std::string& text) {
   std::size_t sent = 0;
   while (sent < text.size()) {
     const ssize_t count = ::send(client, text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
-    if (count <= 0) return;
+    if (count <= 0) return false;
     sent += static_cast<std::size_t>(count);
   }
+  return true;
+}
+
+// 100 MB of one letter.
+std::string Packed() {
+  std::string packed(1 << 20, '\0');
+  const std::string letters(1 << 20, 'x');
+  z_stream stream{};
+  constexpr int kGzip = 16 + MAX_WBITS;
+  deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kGzip, 8, Z_DEFAULT_STRATEGY);
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  for (int i = 0; i < 100; ++i) {
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(letters.data()));
+    stream.avail_in = static_cast<uInt>(letters.size());
+    deflate(&stream, i < 99 ? Z_NO_FLUSH : Z_FINISH);
+  }
+  packed.resize(stream.total_out);
+  deflateEnd(&stream);
+  return packed;
 }
 
 }  // namespace
@@ -64,6 +86,13 @@ void WebServer::Serve() {
   }
 }
 
+void WebServer::SendForEver(int client, const std::string& piece, int pause_ms) const {
+  while (!stopping_ && Send(client, piece)) {
+    pollfd waiting{client, POLLIN, 0};
+    if (::poll(&waiting, 1, pause_ms) > 0) return;  // the client has hung up
+  }
+}
+
 void WebServer::Answer(int client) {
   std::string request;
   std::array<char, 2048> buffer{};
@@ -94,6 +123,26 @@ void WebServer::Answer(int client) {
     return;
   }
   ++bodies_sent_;
+  if (way == "/moved") {
+    Send(client,
+         "HTTP/1.1 302 Found\r\nLocation: file:///etc/hostname\r\nConnection: close\r\n\r\n");
+    return;
+  }
+  if (way == "/drip") {
+    Send(client, "HTTP/1.1 200 OK\r\nContent-Length: 1000000\r\nConnection: close\r\n\r\n");
+    SendForEver(client, "x", 100);
+    return;
+  }
+  if (way == "/endless") {
+    Send(client, "HTTP/1.0 200 OK\r\n\r\n");
+    SendForEver(client, std::string(1 << 16, 'x'), 0);
+    return;
+  }
+  if (way == "/gzip") {
+    Send(client,
+         "HTTP/1.1 200 OK\r\nContent-Encoding: gzip\r\nConnection: close\r\n\r\n" + Packed());
+    return;
+  }
   if (way == "/undated") {
     Send(client, "HTTP/1.0 200 OK\r\n\r\n" + body);
     return;

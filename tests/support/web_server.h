@@ -15,6 +15,10 @@ namespace ridgeline::testing {
 //   /half/NAME    says the whole length and sends half
 //   /mute/NAME    says the whole length, sends half, and is silent until the client gives up
 //   /busy/NAME    500
+//   /drip/NAME    a byte every tenth of a second
+//   /moved/NAME   302 to the file system: file:///etc/hostname
+//   /endless/NAME no length, and no end until the client hangs up
+//   /gzip/NAME    the same, packed: a few bytes that stand for very many
 // and 404 for files that it does not have.
 class WebServer {
  public:
@@ -34,6 +38,7 @@ class WebServer {
 
  private:
   void Serve();
+  void SendForEver(int client, const std::string& piece, int pause_ms) const;
   void Answer(int client);
 
   std::map<std::string, std::string> files_;

@@ -51,7 +51,7 @@ TEST(TownDataset, IsTheSameOnAnyNumberOfThreads) {
     const fs::path other = eight / fs::relative(entry.path(), one);
     EXPECT_EQ(ReadFile(entry.path()), ReadFile(other)) << entry.path();
   }
-  EXPECT_EQ(files, 6);  // model, DTM, dataset.json, three pictures
+  EXPECT_EQ(files, 9);  // model, DTM, dataset.json, three pictures, a tower (OBJ, MTL, JSON)
 }
 
 TEST(TownDataset, CityGmlReadsBackAsTheTown) {

@@ -7,23 +7,18 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/limits.h"
 #include "base/random.h"
 
 namespace ridgeline {
 namespace {
-
-constexpr int kMaxLinkDepth = 8;
-// Links to links fan out: what comes out is bounded by what is written.
-constexpr std::size_t kMaxPerUse = 16;
-constexpr std::size_t kMaxAnyway = 100'000;
-constexpr std::size_t kMaxCopiedPoints = 10'000'000;  // of implicit geometries
 
 class Assigner {
  public:
   Assigner(const GmlUses& gml, SourceModel& model)
       : gml_(gml),
         model_(model),
-        most_(kMaxAnyway + kMaxPerUse * gml.uses.size()),
+        most_(limits::kLinkedPolygons + limits::kPolygonsPerUse * gml.uses.size()),
         used_(model.polygons.size(), 0) {
     FindThematicBuildings();
   }
@@ -88,14 +83,14 @@ class Assigner {
   // One more step along links, or copied points.
   void Spend(std::size_t points) {
     copied_ += points;
-    if (++steps_ <= most_ && copied_ <= kMaxCopiedPoints) return;
-    throw InputError(
-        model_.file,
-        "limit",
-        copied_ > kMaxCopiedPoints
-            ? "implicit geometries of more than " + std::to_string(kMaxCopiedPoints) + " points"
-            : "links that stand for more than " + std::to_string(most_) + " polygons",
-        "geometry that is written out, not multiplied by links");
+    if (++steps_ <= most_ && copied_ <= limits::kCopiedPoints) return;
+    throw InputError(model_.file,
+                     "limit",
+                     copied_ > limits::kCopiedPoints
+                         ? "implicit geometries of more than " +
+                               std::to_string(limits::kCopiedPoints) + " points"
+                         : "links that stand for more than " + std::to_string(most_) + " polygons",
+                     "geometry that is written out, not multiplied by links");
   }
 
   const std::string& BuildingId(const GmlUse& use) const {
@@ -121,7 +116,7 @@ class Assigner {
   }
 
   void ExpandRange(const GmlTarget& target, const GmlUse& holder, bool reversed, int depth) {
-    if (depth >= kMaxLinkDepth) {
+    if (depth >= limits::kLinkDepth) {
       model_.tally.Add("links followed in a circle", BuildingId(holder));
       return;
     }
@@ -166,7 +161,7 @@ class Assigner {
   }
 
   void AddImplicit(const GmlImplicit& implicit, const GmlUse& holder, bool reversed, int depth) {
-    if (depth >= kMaxLinkDepth) return;
+    if (depth >= limits::kLinkDepth) return;
     for (std::uint32_t i = implicit.prototype.begin; i < implicit.prototype.end; ++i) {
       const GmlUse& use = gml_.uses[i];
       Spend(0);

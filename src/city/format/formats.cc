@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/limits.h"
 #include "city/format/read_citygml.h"
 #include "city/format/read_cityjson.h"
 #include "city/format/read_obj.h"
@@ -13,11 +14,6 @@
 namespace ridgeline {
 namespace fs = std::filesystem;
 namespace {
-
-// Beyond them a file is damaged or made to hurt.
-constexpr double kMaxCoordinate = 1e8;        // [m, or what the file has]
-constexpr std::uint32_t kMaxHoles = 1000;     // of a polygon
-constexpr std::uint32_t kMaxCorners = 20000;  // of a ring
 
 // ".gml" of "tile.GML.gz".
 std::string ModelExtension(const fs::path& path) {
@@ -74,23 +70,23 @@ const CityFormat& FormatOf(const fs::path& path) {
 
 void CheckLimits(const SourceModel& model) {
   for (const SourcePolygon& polygon : model.polygons) {
-    if (polygon.ring_count > kMaxHoles + 1) {
+    if (polygon.ring_count > limits::kHoles + 1) {
       FailLimit(model,
                 polygon,
                 std::to_string(polygon.ring_count - 1) + " holes",
-                "at most " + std::to_string(kMaxHoles) + " in a polygon");
+                "at most " + std::to_string(limits::kHoles) + " in a polygon");
     }
     for (std::uint32_t r = polygon.first_ring; r < polygon.first_ring + polygon.ring_count; ++r) {
       const SourceRing& ring = model.rings[r];
-      if (ring.point_count > kMaxCorners) {
+      if (ring.point_count > limits::kCorners) {
         FailLimit(model,
                   polygon,
                   "a ring of " + std::to_string(ring.point_count) + " corners",
-                  "at most " + std::to_string(kMaxCorners));
+                  "at most " + std::to_string(limits::kCorners));
       }
       for (std::uint32_t p = ring.first_point; p < ring.first_point + ring.point_count; ++p) {
         const double largest = model.points[p].cwiseAbs().maxCoeff();
-        if (largest <= kMaxCoordinate) continue;  // false for NaN
+        if (largest <= limits::kCoordinate) continue;  // false for NaN
         std::ostringstream number;
         number << "the coordinate " << largest;
         FailLimit(model, polygon, number.str(), "coordinates of at most 1e8");

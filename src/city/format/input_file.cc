@@ -7,16 +7,10 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/limits.h"
+#include "city/format/openable.h"
 
 namespace ridgeline {
-namespace {
-
-// Packed models grow 10 to 30 times.
-constexpr std::uint64_t kMaxExpansion = 64;
-constexpr std::uint64_t kLeastLimit = std::uint64_t{64} << 20;
-
-}  // namespace
-
 struct InputFile::Impl {
   VSILFILE* file = nullptr;
   ~Impl() {
@@ -26,19 +20,15 @@ struct InputFile::Impl {
 
 InputFile::InputFile(const std::filesystem::path& path)
     : name_(path.string()), impl_(std::make_unique<Impl>()) {
+  RequireOpenable(name_, "a model file", false);
   VSIStatBufL stat;
-  if (VSIStatExL(name_.c_str(),
-                 &stat,
-                 VSI_STAT_EXISTS_FLAG | VSI_STAT_NATURE_FLAG | VSI_STAT_SIZE_FLAG) != 0) {
+  if (VSIStatExL(name_.c_str(), &stat, VSI_STAT_EXISTS_FLAG | VSI_STAT_SIZE_FLAG) != 0) {
     throw InputError(name_, "", "no such file", "a model file");
-  }
-  if (VSI_ISDIR(stat.st_mode)) throw InputError(name_, "", "a folder", "a model file");
-  if (!VSI_ISREG(stat.st_mode)) {
-    throw InputError(name_, "", "a pipe or a device", "a regular file");
   }
   const bool gzipped = path.extension() == ".gz";
   if (gzipped)
-    most_bytes_ = std::max(kLeastLimit, kMaxExpansion * static_cast<std::uint64_t>(stat.st_size));
+    most_bytes_ = std::max(limits::kExpandedBytes,
+                           limits::kExpansion * static_cast<std::uint64_t>(stat.st_size));
   impl_->file = VSIFOpenL((gzipped ? "/vsigzip/" + name_ : name_).c_str(), "rb");
   if (impl_->file == nullptr) {
     throw InputError(name_, "", "a file that cannot be read", "read permission");
@@ -55,7 +45,8 @@ std::size_t InputFile::Read(char* buffer, std::size_t size) {
         name_,
         "limit",
         "a file that grows to more than " + std::to_string(most_bytes_ >> 20) + " MB when unpacked",
-        "at most " + std::to_string(kMaxExpansion) + " times its size (gunzip it to have it read)");
+        "at most " + std::to_string(limits::kExpansion) +
+            " times its size (gunzip it to have it read)");
   }
   return count;
 }

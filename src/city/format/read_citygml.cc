@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/limits.h"
 #include "base/random.h"
 #include "city/format/citygml_tags.h"
 #include "city/format/citygml_uses.h"
@@ -18,8 +19,6 @@
 
 namespace ridgeline {
 namespace {
-
-constexpr std::size_t kMaxDepth = 200;  // of elements; models have about 25
 
 // State that an element hands down to its children.
 struct Scope {
@@ -47,11 +46,11 @@ class CityGmlHandler final : public XmlHandler {
   void Start(std::string_view name, const XmlAttributes& attributes) override {
     const std::string_view local = LocalName(name);
     if (stack_.empty()) CheckRoot(local, attributes);
-    if (stack_.size() + skip_depth_ >= kMaxDepth) {
+    if (stack_.size() + skip_depth_ >= limits::kXmlDepth) {
       throw InputError(model_.file,
                        "limit",
-                       "elements nested deeper than " + std::to_string(kMaxDepth) + " at line " +
-                           std::to_string(XmlLine(parser_)),
+                       "elements nested deeper than " + std::to_string(limits::kXmlDepth) +
+                           " at line " + std::to_string(XmlLine(parser_)),
                        "a document of buildings");
     }
     const GmlElement element = FindGmlElement(local);

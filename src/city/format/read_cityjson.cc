@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/json_input.h"
+#include "base/limits.h"
 
 namespace ridgeline {
 namespace {
@@ -159,20 +161,19 @@ class CityJsonReader {
   Eigen::Vector3d Vector(const Json& json, const char* field) const {
     if (!json.is_array() || json.size() < 3 || !json[0].is_number() || !json[1].is_number() ||
         !json[2].is_number()) {
-      throw InputError(model_.file, field, json.dump().substr(0, 60), "three numbers");
+      throw InputError(model_.file, field, JsonText(json), "three numbers");
     }
     return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
   }
 
   // Parts of parts end somewhere.
   void CheckParents(const std::string& id, int building) const {
-    constexpr int kMaxGenerations = 64;
     int generations = 0;
     for (int b = building; b >= 0; b = model_.buildings[static_cast<std::size_t>(b)].parent) {
-      if (++generations <= kMaxGenerations) continue;
+      if (++generations <= limits::kGenerations) continue;
       throw InputError(model_.file,
                        "limit",
-                       "more than " + std::to_string(kMaxGenerations) + " parents above " + id,
+                       "more than " + std::to_string(limits::kGenerations) + " parents above " + id,
                        "parts of buildings, not in a circle");
     }
   }
@@ -196,6 +197,17 @@ class CityJsonReader {
            "one of the file's " + std::to_string(templates_.size()) + " templates");
     }
     return templates_[index];
+  }
+
+  // Templates are written once and drawn many times.
+  void SpendCopies(std::size_t points) {
+    copied_ += points;
+    if (copied_ <= limits::kCopiedPoints) return;
+    throw InputError(model_.file,
+                     "limit",
+                     "templates that stand for more than " + std::to_string(limits::kCopiedPoints) +
+                         " points",
+                     "geometry that is written out, not multiplied by instances");
   }
 
   // All surfaces of the finest fraction of each integer level are one shape: 3DBAG gives 1.2 and
@@ -259,7 +271,9 @@ class CityJsonReader {
       Fail("vertex " + std::to_string(anchor), "a vertex of the file");
     Eigen::Matrix4d place = Eigen::Matrix4d::Identity();
     place.topRightCorner<3, 1>() = vertices_[anchor];
+    const std::size_t points_before = model_.points.size();
     ReadBoundaries(shape, template_vertices_, place * matrix);
+    SpendCopies(model_.points.size() - points_before);
   }
 
   void ReadBoundaries(const Json& geometry,
@@ -308,7 +322,7 @@ class CityJsonReader {
       if (value != nullptr && value->is_number_integer()) {
         const auto k = value->get<std::size_t>();
         if (k >= kinds_.size())
-          Fail("semantics value " + value->dump(), "an index of its surfaces");
+          Fail("semantics value " + JsonText(*value), "an index of its surfaces");
         kind = kinds_[k];
       }
       if (kind.interior) {
@@ -327,7 +341,7 @@ class CityJsonReader {
       for (const Json& v : rings[r]) {
         const std::size_t index = v.get<std::size_t>();
         if (index >= from_->size()) {
-          Fail("vertex " + v.dump(), "one of " + std::to_string(from_->size()) + " vertices");
+          Fail("vertex " + JsonText(v), "one of " + std::to_string(from_->size()) + " vertices");
         }
         const Eigen::Vector4d moved = transform_ * (*from_)[index].homogeneous();
         model_.points.push_back(moved.head<3>());
@@ -372,6 +386,7 @@ class CityJsonReader {
   std::vector<Eigen::Vector3d> vertices_;
   Json templates_ = Json::array();
   std::vector<Eigen::Vector3d> template_vertices_;
+  std::size_t copied_ = 0;  // points of instances
   // Of the geometry being read:
   std::string place_;
   std::size_t owner_ = 0;
@@ -382,55 +397,6 @@ class CityJsonReader {
   std::vector<SurfaceKind> kinds_;
 };
 
-[[noreturn]] void FailJson(const std::string& file,
-                           const std::string& place,
-                           std::size_t byte,
-                           bool ends_early) {
-  throw InputError(file,
-                   place,
-                   ends_early ? "a file that ends early"
-                              : "text that is not JSON at byte " + std::to_string(byte),
-                   "a whole CityJSON document");
-}
-
-// Throws for text nested deeper than any CityJSON is, before a parser builds it.
-void CheckDepth(std::string_view text, const std::string& file) {
-  constexpr int kMaxDepth = 100;
-  int depth = 0;
-  bool in_string = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (in_string) {
-      if (c == '\\') {
-        ++i;
-      } else if (c == '"') {
-        in_string = false;
-      }
-    } else if (c == '"') {
-      in_string = true;
-    } else if (c == '[' || c == '{') {
-      if (++depth > kMaxDepth) {
-        throw InputError(file,
-                         "limit",
-                         "JSON nested deeper than " + std::to_string(kMaxDepth) + " at byte " +
-                             std::to_string(i),
-                         "a CityJSON document");
-      }
-    } else if (c == ']' || c == '}') {
-      --depth;
-    }
-  }
-}
-
-Json Parse(std::string_view text, const std::string& file, const std::string& place) {
-  CheckDepth(text, file);
-  try {
-    return Json::parse(text);
-  } catch (const Json::parse_error& e) {
-    FailJson(file, place, e.byte, e.byte > text.size());
-  }
-}
-
 void ReadSequence(const std::string& text, CityJsonReader& reader, const std::string& file) {
   std::size_t line_number = 0;
   for (std::size_t begin = 0; begin < text.size();) {
@@ -439,7 +405,7 @@ void ReadSequence(const std::string& text, CityJsonReader& reader, const std::st
     begin = end + 1;
     ++line_number;
     if (line.find_first_not_of(" \t\r") == std::string_view::npos) continue;
-    const Json json = Parse(line, file, "line " + std::to_string(line_number));
+    const Json json = ParseJson(line, file, "line " + std::to_string(line_number));
     if (line_number == 1) {
       reader.ReadHeader(json);
     } else if (json.value("type", "") != "CityJSONFeature") {
@@ -453,10 +419,9 @@ void ReadSequence(const std::string& text, CityJsonReader& reader, const std::st
 }
 
 // A sequence has a whole object on its first line and more after it.
-bool IsSequence(const std::string& text, const std::string& file) {
+bool IsSequence(const std::string& text) {
   const std::size_t end = text.find('\n');
   if (end == std::string::npos || text.find('{', end) == std::string::npos) return false;
-  CheckDepth(std::string_view(text).substr(0, end), file);
   return Json::accept(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end));
 }
 
@@ -469,11 +434,11 @@ SourceModel ReadCityJson(InputFile& file) {
   if (text.empty()) throw InputError(model.file, "", "an empty file", "a CityJSON document");
   CityJsonReader reader(model);
   try {
-    if (IsSequence(text, model.file)) {
+    if (IsSequence(text)) {
       ReadSequence(text, reader, model.file);
       model.format.replace(0, 8, "CityJSONSeq");
     } else {
-      const Json root = Parse(text, model.file, "");
+      const Json root = ParseJson(text, model.file);
       if (!root.is_object())
         throw InputError(model.file, "", root.type_name(), "a CityJSON object");
       reader.ReadHeader(root);

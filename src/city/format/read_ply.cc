@@ -64,6 +64,7 @@ class PlyParser {
   SourceModel Run() {
     ReadHeader();
     for (const Element& element : elements_) {
+      if (element.properties.empty()) continue;  // of any number, in no bytes
       for (std::size_t i = 0; i < element.count; ++i) ReadElement(element, i);
     }
     SourceModel model = mesh_.Finish();
@@ -140,9 +141,9 @@ class PlyParser {
       const std::size_t count = property.is_list ? ReadCount(property.count_scalar) : 1;
       list_.clear();
       for (std::size_t i = 0; i < count; ++i) list_.push_back(Read(property.scalar));
-      if (property.name == "x") vertex.x() = list_[0];
-      if (property.name == "y") vertex.y() = list_[0];
-      if (property.name == "z") vertex.z() = list_[0];
+      if (!property.is_list && property.name == "x") vertex.x() = list_[0];
+      if (!property.is_list && property.name == "y") vertex.y() = list_[0];
+      if (!property.is_list && property.name == "z") vertex.z() = list_[0];
       const bool is_corners =
           property.is_list && element.name == "face" && property.name.starts_with("vertex_ind");
       if (is_corners) AddFace();

@@ -45,13 +45,17 @@ std::string NameInCache(const std::string& address) {
 
 struct Receiver {
   std::ofstream stream;
-  std::size_t bytes = 0;
+  std::uint64_t most_bytes = 0;
+  std::uint64_t bytes = 0;
+
+  bool IsTooMuch() const { return bytes > most_bytes; }
 };
 
 std::size_t Receive(void* data, std::size_t size, std::size_t count, void* argument) {
   auto& receiver = *static_cast<Receiver*>(argument);
-  receiver.stream.write(static_cast<const char*>(data), static_cast<std::streamsize>(size * count));
   receiver.bytes += size * count;
+  if (receiver.IsTooMuch()) return 0;
+  receiver.stream.write(static_cast<const char*>(data), static_cast<std::streamsize>(size * count));
   return receiver.stream ? count : 0;
 }
 
@@ -75,11 +79,11 @@ Answer Download(const std::string& address,
   CPLStringList words;
   words.SetNameValue("CONNECTTIMEOUT", patience.c_str());
   words.SetNameValue("LOW_SPEED_TIME", patience.c_str());
-  words.SetNameValue("LOW_SPEED_LIMIT", "1");
+  words.SetNameValue("LOW_SPEED_LIMIT", "1000");
   words.SetNameValue("MAX_RETRY", std::to_string(options.retries).c_str());
   words.SetNameValue("RETRY_DELAY", "1");
   if (!date.empty()) words.SetNameValue("HEADERS", ("If-Modified-Since: " + date).c_str());
-  Receiver receiver{std::ofstream(file, std::ios::binary), 0};
+  Receiver receiver{std::ofstream(file, std::ios::binary), options.most_bytes, 0};
   CPLPushErrorHandler(CPLQuietErrorHandler);
   const std::unique_ptr<CPLHTTPResult, ResultCloser> result(
       CPLHTTPFetchEx(address.c_str(), words.List(), nullptr, nullptr, Receive, &receiver));
@@ -92,7 +96,9 @@ Answer Download(const std::string& address,
   }
   const std::string said = result->pszErrBuf != nullptr ? result->pszErrBuf : "";
   answer.missing = said.find("404") != std::string::npos || said.find("410") != std::string::npos;
-  if (!receiver.stream) {
+  if (receiver.IsTooMuch()) {
+    answer.error = "more than " + std::to_string(options.most_bytes) + " bytes (limit)";
+  } else if (!receiver.stream) {
     answer.error = "a disk without room in the cache folder";
   } else if (!said.empty() || result->nStatus != 0) {
     answer.error = said.empty() ? "error " + std::to_string(result->nStatus) : said;

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "base/limits.h"
 
 namespace ridgeline {
 
@@ -15,8 +18,10 @@ namespace ridgeline {
 struct WebOptions {
   // Empty: $RIDGELINE_CACHE, else $XDG_CACHE_HOME/ridgeline, else ~/.cache/ridgeline.
   std::filesystem::path cache;
-  // A server is given up when it does not answer, or sends nothing, for so long [s].
+  // A server is given up when it does not answer, or sends less than 1 kB a second, for so long [s].
   int patience_s = 20;
+  // Longest file that is taken, unpacked [bytes].
+  std::uint64_t most_bytes = limits::kFileBytes;
   // Repeated tries after an answer such as 503.
   int retries = 2;
 };

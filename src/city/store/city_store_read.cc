@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/gdal_handles.h"
+#include "base/regular_file.h"
 #include "city/crs.h"
 #include "city/store/building_blob.h"
 #include "city/store/city_store.h"
@@ -41,6 +42,7 @@ void CheckRead(const std::string& file) {
 }
 
 GdalDatasetPtr OpenStore(const std::string& file) {
+  RequireRegularFile(file, "a store written by ridgeline index");
   GDALAllRegister();
   CPLErrorReset();
   CPLPushErrorHandler(CPLQuietErrorHandler);

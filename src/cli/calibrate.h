@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "cli/context.h"
+
+namespace ridgeline {
+
+void AddCalibrateCommand(CLI::App& app, Context& context);
+
+}  // namespace ridgeline

@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: Apache-2.0
+# cmake -DBUILD=... -DSOURCE=... -DWORK=... -DDATASET=... -DQUERY=... -P: installs BUILD, builds the
+# examples in SOURCE with what was installed, runs one, and uninstalls: nothing is left.
+function(run)
+  execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${ARGV}\n${output}")
+  endif()
+endfunction()
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
+# The list of what was installed from this build is somebody's: it is put back.
+set(manifest ${BUILD}/install_manifest.txt)
+if(EXISTS ${manifest})
+  file(RENAME ${manifest} ${WORK}/theirs.txt)
+endif()
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
+file(RENAME ${manifest} ${WORK}/ours.txt)
+if(EXISTS ${WORK}/theirs.txt)
+  file(RENAME ${WORK}/theirs.txt ${manifest})
+endif()
+run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/prefix
+    -DCMAKE_BUILD_TYPE=Debug)
+run(${CMAKE_COMMAND} --build ${WORK}/build)
+run(${WORK}/build/localize_photo ${DATASET} ${QUERY})
+run(${CMAKE_COMMAND} -DMANIFEST=${WORK}/ours.txt -P ${CMAKE_CURRENT_LIST_DIR}/../../cmake/Uninstall.cmake)
+if(EXISTS ${WORK}/prefix)
+  file(GLOB_RECURSE left ${WORK}/prefix/*)
+  message(FATAL_ERROR "not uninstalled: ${left}")
+endif()
