@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "city/open_raster.h"
 
-#include <vector>
+#include <string>
 
 #include "base/error.h"
 #include "city/format/openable.h"
@@ -19,18 +19,17 @@ bool IsRowByRow(GDALDataset& dataset) {
 }
 
 void RequireAllRows(GDALDataset& dataset, const std::string& file) {
-  const int width = dataset.GetRasterXSize();
-  std::vector<double> row(static_cast<std::size_t>(width));
   for (int y = 0; y < dataset.GetRasterYSize(); ++y) {
+    double first = 0.0;  // of the row, which is read whole
     if (dataset.GetRasterBand(1)->RasterIO(
-            GF_Read, 0, y, width, 1, row.data(), width, 1, GDT_Float64, 0, 0) == CE_None) {
+            GF_Read, 0, y, 1, 1, &first, 1, 1, GDT_Float64, 0, 0) == CE_None) {
       continue;
     }
     throw InputError(file,
                      "row " + std::to_string(y),
                      "a row that ends early or holds something else than numbers",
                      std::to_string(dataset.GetRasterYSize()) + " rows of " +
-                         std::to_string(width) + " heights");
+                         std::to_string(dataset.GetRasterXSize()) + " heights");
   }
 }
 

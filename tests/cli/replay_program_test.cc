@@ -154,6 +154,8 @@ TEST(SensorPriors, OfLocalizeAndBench) {
                                 quick);
   ASSERT_EQ(one.exit_code % 3, 0) << one.text;
   EXPECT_THAT(ReadFile(folder / "l/pose.json"), HasSubstr("by instruments"));
+  // Nor does this score judge its best pose in absolute terms.
+  EXPECT_THAT(ReadFile(folder / "l/pose.json"), HasSubstr("compares poses with one another only"));
   // Options of instruments that are not there.
   EXPECT_EQ(Ridgeline("bench " + Quoted(Walk() / "dataset.json") +
                       " --protocol paper --set sensors.held=landscape" + quick)
