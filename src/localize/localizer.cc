@@ -311,26 +311,27 @@ ScoredPose Localizer::Impl::WithRoofsInDoubt(const PictureEvidence& picture,
   constexpr double kLeastGain = 4.0;  // [nat]
   ScoredPose best = as_modelled;
   std::vector<RoofShift> shifts;
+  CityModel believed = model;
   for (int round = 0; round < kRounds; ++round) {
-    const std::vector<RoofShift> doubted = RoofsInDoubt(result.goodness);
-    if (doubted.empty()) break;
-    std::vector<RoofShift> tried = shifts;
-    tried.insert(tried.end(), doubted.begin(), doubted.end());
-    const CityModel shifted = WithShiftedRoofs(model, tried);
+    const std::optional<RoofShift> doubted =
+        RoofInDoubt({picture, believed, dtm ? &*dtm : nullptr, space, options},
+                    result.goodness,
+                    best,
+                    shifts);
+    if (!doubted) break;
+    CityModel shifted = WithShiftedRoofs(believed, {&*doubted, 1});
     const Scene shifted_scene(shifted, dtm ? &*dtm : nullptr, options.projection);
     const std::unique_ptr<Score> score = MakeScore({picture, shifted_scene, options.score});
     const PoseScorer scorer(
         *score, shifted_scene, space, picture.camera(), options.score.evidence.surface_step_deg);
     const SearchedPoses found = SearchAndRefine(scorer, picture, options, seed, threads);
     result.evaluations += found.evaluations;
-    if (found.modes.empty() ||
-        found.modes.front().log_ratio < best.log_ratio + kLeastGain * doubted.size()) {
-      break;
-    }
+    if (found.modes.empty() || found.modes.front().log_ratio < best.log_ratio + kLeastGain) break;
     best = found.modes.front();
-    shifts = std::move(tried);
+    shifts.push_back(*doubted);
     if (found.volume) result.map = MapOf(*found.volume, space, model);
     Believe(found, scorer, options.confidence, result);
+    believed = std::move(shifted);
   }
   for (const RoofShift& shift : shifts) result.doubts.push_back(WordsOf(shift, model));
   return best;

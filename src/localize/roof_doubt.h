@@ -1,15 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vector>
+#include <optional>
 
 #include "city/raise_roofs.h"
+#include "city/terrain.h"
 #include "localize/goodness.h"
+#include "localize/localizer_options.h"
+#include "localize/pose_scorer.h"
+#include "score/picture_evidence.h"
 
 namespace ridgeline {
 
-// The roofs that the picture puts at another height than the model, clearly enough to try them
-// there: at least half a metre, with a gain of three nats.
-std::vector<RoofShift> RoofsInDoubt(const Goodness& goodness);
+// What a roof is tried with: the picture, and the model as it is believed so far.
+struct RoofTrial {
+  const PictureEvidence& picture;
+  const CityModel& model;
+  const HeightGrid* dtm = nullptr;
+  const PoseSpace& space;
+  const LocalizerOptions& options;
+};
+
+// The roof that the picture puts at another height than the model, clearly enough to search with it
+// there: each of the most telling buildings is tried up to two metres up and down, the camera turned
+// as fits the picture best (at the pose itself the tilt has swallowed what a roof is off by).
+// Buildings of `settled` are left out. Nullopt: none gains three nats.
+std::optional<RoofShift> RoofInDoubt(const RoofTrial& trial,
+                                     const Goodness& goodness,
+                                     const ScoredPose& best,
+                                     const std::vector<RoofShift>& settled);
 
 }  // namespace ridgeline
