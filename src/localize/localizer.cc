@@ -314,7 +314,7 @@ ScoredPose Localizer::Impl::WithRoofsInDoubt(const PictureEvidence& picture,
   CityModel believed = model;
   for (int round = 0; round < kRounds; ++round) {
     const std::optional<RoofShift> doubted =
-        RoofInDoubt({picture, believed, dtm ? &*dtm : nullptr, space, options},
+        RoofInDoubt({picture, believed, space, options},
                     result.goodness,
                     best,
                     shifts);

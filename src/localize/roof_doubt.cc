@@ -15,10 +15,10 @@ namespace {
 constexpr std::size_t kBuildings = 3;
 // A building that could tell less is not asked.
 constexpr double kTellingNat = 2.0;
-constexpr double kLeastGain = 3.0;
+constexpr double kLeastGain = 6.0;
 constexpr std::array<double, 4> kShiftsM = {-1.5, -0.75, 0.75, 1.5};
 constexpr double kBetweenM = 0.375;
-// Gains are compared among the buildings around the camera.
+// Gains are compared among the buildings around the camera alone, without the terrain.
 constexpr double kAroundM = 120.0;
 // Turns the camera only: the last step is above the first.
 constexpr RefineSteps kTurnOnly{.first_m = 0.05, .first_deg = 0.5, .last_m = 0.06};
@@ -42,7 +42,7 @@ class Turner {
  private:
   double With(std::span<const RoofShift> shifts) const {
     const CityModel shifted = WithShiftedRoofs(around_, shifts);
-    const Scene scene(shifted, trial_.dtm, trial_.options.projection);
+    const Scene scene(shifted, nullptr, trial_.options.projection);
     const std::unique_ptr<Score> score =
         MakeScore({trial_.picture, scene, trial_.options.score});
     const PoseScorer scorer(*score,

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "city/raise_roofs.h"
-#include "city/terrain.h"
 #include "localize/goodness.h"
 #include "localize/localizer_options.h"
 #include "localize/pose_scorer.h"
@@ -16,7 +15,6 @@ namespace ridgeline {
 struct RoofTrial {
   const PictureEvidence& picture;
   const CityModel& model;
-  const HeightGrid* dtm = nullptr;
   const PoseSpace& space;
   const LocalizerOptions& options;
 };
@@ -24,7 +22,7 @@ struct RoofTrial {
 // The roof that the picture puts at another height than the model, clearly enough to search with it
 // there: each of the most telling buildings is tried up to two metres up and down, the camera turned
 // as fits the picture best (at the pose itself the tilt has swallowed what a roof is off by).
-// Buildings of `settled` are left out. Nullopt: none gains three nats.
+// Buildings of `settled` are left out. Nullopt: none gains six nats.
 std::optional<RoofShift> RoofInDoubt(const RoofTrial& trial,
                                      const Goodness& goodness,
                                      const ScoredPose& best,
