@@ -140,6 +140,22 @@ TEST_F(LocalizerOnAStreet, TiltsFarFromThePriorsAreLessLikely) {
   EXPECT_NEAR(space.LogPrior(offset), -1.5 * std::log(2.0), 1e-12);
 }
 
+TEST_F(LocalizerOnAStreet, UnusualHeightsOfACameraInTheHandAreLessLikely) {
+  const Footprints footprints(model_);
+  HeightGrid ground{{-50.0, -50.0}, 50.0, 4, 4, std::vector<float>(16, 0.0f)};
+  PosePrior prior = input_.prior;
+  const PoseSpace known(prior, Options().search.space, localizer_.scene(), &ground, footprints);
+  prior.height_in_world.reset();
+  const PoseSpace open(prior, Options().search.space, localizer_.scene(), &ground, footprints);
+  PoseSpace::Offset offset;
+  EXPECT_EQ(open.LogPrior(offset), 0.0);
+  offset.height_m = 0.5;  // two standard deviations of a Student t with four degrees of freedom
+  EXPECT_NEAR(open.LogPrior(offset), -2.5 * std::log(2.0), 1e-12);
+  offset.height_m = -0.5;
+  EXPECT_NEAR(open.LogPrior(offset), -2.5 * std::log(2.0), 1e-12);
+  EXPECT_EQ(known.LogPrior(offset), 0.0) << "a height that was given is not a guess";
+}
+
 TEST_F(LocalizerOnAStreet, IsTheSameOnAnyNumberOfThreads) {
   const std::string one = PoseJson("photo", localizer_.Localize(input_, 1, 1), model_, {});
   EXPECT_EQ(PoseJson("photo", localizer_.Localize(input_, 1, 8), model_, {}), one);
