@@ -93,7 +93,7 @@ PoseSpaceOptions SearchRanges(const Protocol& protocol, const DrawContext& conte
     ranges.camera_height_m = context.set_offset_m;
   } else if (protocol.height == PriorHeight::kTerrain && !Flies(context)) {
     ranges.camera_height_m = kHandHeightM;
-    ranges.height_m = kHandHeightRangeM;
+    ranges.height_m = ranges.camera_height_range_m = kHandHeightRangeM;
   }
   return ranges;
 }

@@ -109,7 +109,7 @@ double PoseSpace::LogPrior(const Offset& offset) const {
   const double of_tilt = -1.5 * std::log1p(tilt * tilt);  // Cauchy in two dimensions
   if (height_ || ranges_.camera_height_range_m <= 0.0) return of_tilt;
   // A camera in the hand, over a terrain that may err: Student's t of four degrees of freedom.
-  const double height = 2.0 * offset.height_m / ranges_.camera_height_range_m;
+  const double height = offset.height_m / ranges_.camera_height_range_m;
   return of_tilt - 2.5 * std::log1p(height * height / 4.0);
 }
 

@@ -26,7 +26,7 @@ struct PoseSpaceOptions {
   // How far a prior's pitch and roll are usually off [deg]: the scale of a Cauchy distribution.
   double tilt_scale_deg = 8.0;
   // Height of the camera above the terrain where the prior has no height [m], and how far it may
-  // be off then at least: two standard deviations.
+  // be off then at least: one standard deviation.
   double camera_height_m = 1.7;
   double camera_height_range_m = 0.5;
   // Whether poses in a building's footprint and off the DTM are skipped.
