@@ -125,7 +125,7 @@ int RunAugmentFilm(const AugmentArguments& arguments, const Context& context) {
   ApplyConfig({"", arguments.set}, [&](OptionVisitor& v) {
     v.Group("sensors", [&](OptionVisitor& g) { sensors.Visit(g); });
   });
-  sensors.Validate();
+  CheckOptions(sensors, "sensors");
   const std::unique_ptr<SequenceInput> input =
       ReadSequence(SequenceOf(arguments), sensors, context.threads);
   for (const std::string& warning : input->warnings) context.Warn(warning);

@@ -198,7 +198,7 @@ int RunAyadi(AyadiArguments& arguments, const Context& context) {
   ApplyConfig({"", arguments.set}, [&](OptionVisitor& v) {
     v.Group("sensors", [&](OptionVisitor& g) { arguments.sensors.Visit(g); });
   });
-  arguments.sensors.Validate();
+  CheckOptions(arguments.sensors, "sensors");
   const OutFolder out_folder("--out", arguments.out);
   const std::unique_ptr<SequenceInput> input =
       ReadSequence(arguments.sequence, arguments.sensors, context.threads);

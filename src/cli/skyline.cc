@@ -328,8 +328,7 @@ fs::path FolderOf(const fs::path& file) {
 
 int RunSkyline(SkylineArguments& arguments, const Context& context) {
   ApplyConfig(arguments.config, [&](OptionVisitor& v) { arguments.Visit(v); });
-  arguments.track.Validate();
-  arguments.sensors.Validate();
+  CheckVisited([&](OptionVisitor& v) { arguments.Visit(v); }, "");
   if ((arguments.track.extractor == "file") == arguments.skylines.empty()) {
     throw InputError("--skylines",
                      "",

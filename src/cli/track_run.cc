@@ -310,10 +310,7 @@ void TrackRequest::Visit(OptionVisitor& v) {
 int RunTrack(TrackRequest& request, const Context& context) {
   CheckRequest(request);
   ApplyConfig(request.config, [&](OptionVisitor& v) { request.Visit(v); });
-  request.localizer.Validate();
-  request.track.Validate();
-  request.smoother.Validate();
-  request.sensors.Validate();
+  CheckVisited([&](OptionVisitor& v) { request.Visit(v); }, "");
   RefuseIdleOptions(request.config.set, request.localizer);
   const OutFolder out_folder("--out", request.out);
   CheckFileToWrite("--report", request.report);

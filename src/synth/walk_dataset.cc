@@ -60,7 +60,7 @@ TownDatasetSummary WriteWalkDataset(const WalkOptions& options,
                                     const fs::path& folder,
                                     int threads,
                                     const FileProgress& progress) {
-  options.Validate();
+  CheckOptions(options);
   const std::size_t total = 2 + static_cast<std::size_t>(options.frames);
   TownDatasetSummary summary;
   const Town town = MakeTown(options.town);

@@ -279,64 +279,31 @@ bool AtLimit(const Pose& start, const Pose& pose, const SkylineMatchOptions& opt
 }  // namespace
 
 void SkylineMatchOptions::Visit(OptionVisitor& v) {
-  v.Field("method", method);
+  v.Field("method", method, OneOf{{"2d", "2x2d", "3d", "6dof"}});
   v.Field("linear_angles", linear_angles);
-  v.Field("scan_heading_deg", scan_heading_deg);
-  v.Field("scan_pitch_deg", scan_pitch_deg);
-  v.Field("scan_step_deg", scan_step_deg);
-  v.Field("heading_step_deg", heading_step_deg);
-  v.Field("pitch_step_deg", pitch_step_deg);
-  v.Field("roll_step_deg", roll_step_deg);
-  v.Field("position_step_m", position_step_m);
-  v.Field("height_step_m", height_step_m);
-  v.Field("rounds", rounds);
-  v.Field("shrink", shrink);
-  v.Field("max_evaluations", max_evaluations);
+  v.Field("scan_heading_deg", scan_heading_deg, NotNegative());
+  v.Field("scan_pitch_deg", scan_pitch_deg, NotNegative());
+  v.Field("scan_step_deg", scan_step_deg, Positive());
+  v.Field("heading_step_deg", heading_step_deg, Positive());
+  v.Field("pitch_step_deg", pitch_step_deg, Positive());
+  v.Field("roll_step_deg", roll_step_deg, Positive());
+  v.Field("position_step_m", position_step_m, Positive());
+  v.Field("height_step_m", height_step_m, Positive());
+  v.Field("rounds", rounds, AtLeast(1));
+  v.Field("shrink", shrink, Open(0.0, 1.0));
+  v.Field("max_evaluations", max_evaluations, AtLeast(1));
   v.Field("free_height", free_height);
-  v.Field("sensor_weight_px", sensor_weight_px);
-  v.Field("heading_sigma_deg", heading_sigma_deg);
-  v.Field("tilt_sigma_deg", tilt_sigma_deg);
-  v.Field("position_sigma_m", position_sigma_m);
-  v.Field("height_sigma_m", height_sigma_m);
-  v.Field("max_distance_px", max_distance_px);
-  v.Field("ambiguous_ratio", ambiguous_ratio);
-  v.Field("max_heading_sigma_deg", max_heading_sigma_deg);
-  v.Field("max_heading_deg", max_heading_deg);
-  v.Field("max_tilt_deg", max_tilt_deg);
-  v.Field("max_shift_m", max_shift_m);
-}
-
-void SkylineMatchOptions::Validate() const {
-  SkylineMatchNamed(method);
-  const auto require = [](bool ok, const char* name, double value, const char* expected) {
-    if (!ok) {
-      throw InputError("", std::string("match.") + name, std::to_string(value), expected);
-    }
-  };
-  require(scan_heading_deg >= 0.0, "scan_heading_deg", scan_heading_deg, "at least 0");
-  require(scan_pitch_deg >= 0.0, "scan_pitch_deg", scan_pitch_deg, "at least 0");
-  const std::pair<const char*, double> positive[] = {
-      {"scan_step_deg", scan_step_deg},
-      {"heading_step_deg", heading_step_deg},
-      {"pitch_step_deg", pitch_step_deg},
-      {"roll_step_deg", roll_step_deg},
-      {"position_step_m", position_step_m},
-      {"height_step_m", height_step_m},
-      {"heading_sigma_deg", heading_sigma_deg},
-      {"tilt_sigma_deg", tilt_sigma_deg},
-      {"position_sigma_m", position_sigma_m},
-      {"height_sigma_m", height_sigma_m},
-      {"max_distance_px", max_distance_px},
-      {"max_heading_sigma_deg", max_heading_sigma_deg},
-      {"max_heading_deg", max_heading_deg},
-      {"max_tilt_deg", max_tilt_deg},
-      {"max_shift_m", max_shift_m}};
-  for (const auto& [name, value] : positive) require(value > 0.0, name, value, "more than 0");
-  require(sensor_weight_px >= 0.0, "sensor_weight_px", sensor_weight_px, "at least 0");
-  require(rounds >= 1, "rounds", rounds, "at least 1");
-  require(shrink > 0.0 && shrink < 1.0, "shrink", shrink, "(0, 1)");
-  require(max_evaluations >= 1, "max_evaluations", max_evaluations, "at least 1");
-  require(ambiguous_ratio >= 0.0, "ambiguous_ratio", ambiguous_ratio, "at least 0");
+  v.Field("sensor_weight_px", sensor_weight_px, NotNegative());
+  v.Field("heading_sigma_deg", heading_sigma_deg, Positive());
+  v.Field("tilt_sigma_deg", tilt_sigma_deg, Positive());
+  v.Field("position_sigma_m", position_sigma_m, Positive());
+  v.Field("height_sigma_m", height_sigma_m, Positive());
+  v.Field("max_distance_px", max_distance_px, Positive());
+  v.Field("ambiguous_ratio", ambiguous_ratio, NotNegative());
+  v.Field("max_heading_sigma_deg", max_heading_sigma_deg, Positive());
+  v.Field("max_heading_deg", max_heading_deg, Positive());
+  v.Field("max_tilt_deg", max_tilt_deg, Positive());
+  v.Field("max_shift_m", max_shift_m, Positive());
 }
 
 SkylineMatch SkylineMatchNamed(const std::string& name) {

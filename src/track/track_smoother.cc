@@ -10,7 +10,6 @@
 #include <numbers>
 #include <string>
 
-#include "base/error.h"
 
 namespace ridgeline {
 namespace {
@@ -226,20 +225,9 @@ class StretchSmoother {
 }  // namespace
 
 void SmootherOptions::Visit(OptionVisitor& v) {
-  v.Field("floor_m", floor_m);
-  v.Field("floor_deg", floor_deg);
-  v.Field("evidence_factor", evidence_factor);
-}
-
-void SmootherOptions::Validate() const {
-  const auto require = [](bool valid, const char* field, double found, const char* expected) {
-    if (!valid) {
-      throw InputError("", std::string("smoother.") + field, std::to_string(found), expected);
-    }
-  };
-  require(floor_m > 0.0, "floor_m", floor_m, "more than 0");
-  require(floor_deg > 0.0, "floor_deg", floor_deg, "more than 0");
-  require(evidence_factor >= 1.0, "evidence_factor", evidence_factor, "at least 1");
+  v.Field("floor_m", floor_m, Positive());
+  v.Field("floor_deg", floor_deg, Positive());
+  v.Field("evidence_factor", evidence_factor, AtLeast(1.0));
 }
 
 std::vector<std::optional<SmoothedPose>> Smooth(std::span<const TrackFrame> frames,

@@ -111,7 +111,7 @@ Tracker::Tracker(const Localizer& localizer,
       filter_(options.filter),
       monitor_(options.gnss),
       scale_sigma_(options.scale_sigma) {
-  options.Validate();
+  CheckOptions(options, "track");
 }
 
 PoseRegion Tracker::RegionAround(const Eigen::Vector2d& center, double half_m) const {

@@ -102,7 +102,7 @@ TEST(LineDetectionOptions, BadValuesAreNamed) {
   LineDetectionOptions options;
   options.detector = "sobel";
   try {
-    options.Validate();
+    CheckOptions(options, "lines");
     FAIL() << "nothing thrown";
   } catch (const InputError& e) {
     EXPECT_STREQ(e.what(),
@@ -110,7 +110,7 @@ TEST(LineDetectionOptions, BadValuesAreNamed) {
   }
   options = {};
   options.min_length_px = 0.0;
-  EXPECT_THROW(options.Validate(), InputError);
+  EXPECT_THROW(CheckOptions(options), InputError);
 }
 
 TEST(DetectorTable, ANameThatIsTakenIsRefused) {

@@ -174,7 +174,7 @@ TEST(ScoreOptions, WeightsHaveNames) {
   const auto refusal = [&](const std::string& assignment) -> std::string {
     try {
       SetOption(assignment, visit);
-      options.Validate();
+      CheckOptions(options, "score");
     } catch (const InputError& error) {
       return error.what();
     }
@@ -185,7 +185,7 @@ TEST(ScoreOptions, WeightsHaveNames) {
   EXPECT_EQ(refusal("score.weights=[1,2]"),
             "--set: score.weights: got [1,2], expected an object { \"skyline_edges\": ..., ... }");
   EXPECT_EQ(refusal("score.weights.sky=-1"),
-            "score.weights.sky: got -1.000000, expected a number >= 0");
+            "score.weights.sky: got -1, expected >= 0");
 }
 
 }  // namespace
