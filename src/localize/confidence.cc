@@ -5,6 +5,7 @@
 #include <cmath>
 
 namespace ridgeline {
+
 void OutcomeModel::Visit(OptionVisitor& v) {
   v.Field("offset", offset, AnyNumber());
   v.Field("explained", explained, AnyNumber());

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "base/angle.h"
 #include "lines/angle_to_direction.h"
 #include "score/position_view.h"
 
@@ -158,7 +159,6 @@ class Fitter {
                                             double tolerance) const {
     std::vector<DirectionMatch> verticals;
     if (!limits_.IsFree(kPitch) && !limits_.IsFree(kRoll)) return verticals;
-    constexpr double kRadPerDeg = std::numbers::pi / 180.0;
     constexpr double kSigmaDeg = 1.0;  // as in FindTilts
     constexpr double kVerticalShare = 0.3;
     constexpr double kMaxSigmas = 3.0;

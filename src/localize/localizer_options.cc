@@ -4,6 +4,7 @@
 #include <string>
 
 namespace ridgeline {
+
 void MapOptions::Visit(OptionVisitor& v) {
   v.Field("spacing_m", spacing_m, Closed(0.01, 1000.0));
   v.Field("heading_step_deg", heading_step_deg, Closed(0.05, 90.0));

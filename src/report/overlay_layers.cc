@@ -7,10 +7,10 @@
 #include <numbers>
 #include <utility>
 
+#include "base/angle.h"
+
 namespace ridgeline {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 // The directions a camera sees, with a margin; all around when it looks steeply up or down.
 Sector SectorOf(const PinholeCamera& camera, const Pose& cam_from_local) {

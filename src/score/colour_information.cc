@@ -8,7 +8,6 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-
 namespace ridgeline {
 namespace {
 

@@ -7,7 +7,6 @@
 #include <numbers>
 #include <string>
 
-
 namespace ridgeline {
 namespace {
 

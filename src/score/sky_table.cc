@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string>
 
-
 namespace ridgeline {
 
 SkyTable::SkyTable(const cv::Mat& log_odds, const SkyTableOptions& options)

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "base/angle.h"
 #include "base/random.h"
 
 namespace ridgeline {
@@ -14,7 +15,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kDeg = 180.0 / std::numbers::pi;
 constexpr std::uint64_t kWalkStage = 0x90;
 // The walker keeps to the roadway, so far from the middle line [m].
 constexpr double kOffMiddleM = 1.5;
@@ -179,7 +179,7 @@ std::vector<Pose> WalkPoses(const Town& town, const WalkOptions& options) {
     const Place ahead = PlaceAt(way, (t + 1.5) * options.speed_m_s);
     const double turn =
         std::remainder(ahead.heading_rad - place.heading_rad, 2.0 * std::numbers::pi);
-    const double heading_deg = (place.heading_rad + 0.5 * turn) * kDeg +
+    const double heading_deg = (place.heading_rad + 0.5 * turn) * kDegPerRad +
                                options.look_deg * look.At(t) +
                                0.75 * options.hand_deg * hand_heading.At(t);
     const double bob = options.bob_m * std::sin(2.0 * std::numbers::pi * kStepRate * t);

@@ -3,19 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/angle.h"
 #include "city/crs.h"
 
 namespace ridgeline {
-namespace {
-
-constexpr double kDeg = 180.0 / std::numbers::pi;
-
-}  // namespace
 
 DeviceTilt TiltFromUpward(const Eigen::Vector3d& u) {
-  return {std::atan2(u.z(), std::hypot(u.x(), u.y())) * kDeg, std::atan2(-u.x(), -u.y()) * kDeg};
+  return {std::atan2(u.z(), std::hypot(u.x(), u.y())) * kDegPerRad,
+          std::atan2(-u.x(), -u.y()) * kDegPerRad};
 }
 
 Eigen::Vector3d UpwardInCamera(const Eigen::Vector3d& a, const std::string& held) {
@@ -50,7 +46,7 @@ double SensorPriors::GridHeading(const SensorReading& reading) const {
   const Eigen::Vector2d here = Project(*reading.latitude_deg, *reading.longitude_deg);
   const Eigen::Vector2d north =
       Project(*reading.latitude_deg + kStepDeg, *reading.longitude_deg) - here;
-  return heading + std::atan2(north.x(), north.y()) * kDeg;
+  return heading + std::atan2(north.x(), north.y()) * kDegPerRad;
 }
 
 std::optional<double> SensorPriors::HeightOf(const SensorReading& reading,

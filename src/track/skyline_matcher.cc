@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "base/angle.h"
 #include "base/error.h"
 #include "track/downhill_simplex.h"
 #include "track/skyline_certainty.h"
@@ -17,7 +18,6 @@
 namespace ridgeline {
 namespace {
 
-constexpr double kRad = std::numbers::pi / 180.0;
 // Share of a limit from which the result counts as lying on it.
 constexpr double kAtLimit = 0.98;
 // A model that nowhere rises above this elevation [rad] has no skyline to match.
@@ -74,7 +74,7 @@ Sector SectorOf(const Pose& start,
     for (const double y : {0.0, static_cast<double>(camera.height)}) {
       const Eigen::Vector3d ray = (world_from_cam * camera.RayFromImage({x, y})).normalized();
       // The tilt may grow by the limit: rays that steep can point anywhere.
-      if (std::asin(std::abs(ray.z())) > (85.0 - options.max_tilt_deg) * kRad) return sector;
+      if (std::asin(std::abs(ray.z())) > (85.0 - options.max_tilt_deg) * kRadPerDeg) return sector;
       half = std::max(half,
                       std::abs(std::remainder(std::atan2(ray.x(), ray.y()) - sector.center,
                                               2.0 * std::numbers::pi)));
@@ -84,7 +84,7 @@ Sector SectorOf(const Pose& start,
                            ? options.scan_heading_deg + 2.0 * options.heading_step_deg
                            : options.max_heading_deg;
   const double margin = std::min(reach, options.max_heading_deg) + 0.5 * options.max_tilt_deg;
-  sector.half_width = std::min(half + margin * kRad, sector.half_width);
+  sector.half_width = std::min(half + margin * kRadPerDeg, sector.half_width);
   return sector;
 }
 
@@ -120,14 +120,14 @@ class Matcher {
     const SkylineDrawing drawing(
         directions_, real_.camera(), pose.cam_from_world, kDrawingPrecisionPx);
     const PinholeCamera& camera = real_.camera();
-    const double px_per_deg = camera.fx * kRad;
+    const double px_per_deg = camera.fx * kRadPerDeg;
     const auto motion_of = [&](std::span<const double> v) {
       return SkylineDrawing::Motion{v[0], v[1], v[2]};
     };
     const auto distance = [&](std::span<const double> v) {
       ++evaluations_;
       drawing.Rows(motion_of(v), rows_);
-      const Offsets o{v[0] / px_per_deg, v[1] / px_per_deg, v[2] / kRad, 0.0, 0.0, 0.0};
+      const Offsets o{v[0] / px_per_deg, v[1] / px_per_deg, v[2] / kRadPerDeg, 0.0, 0.0, 0.0};
       return real_.DistanceOfRows(rows_) + SensorCost(o, options_);
     };
     std::vector<double> best{0.0, 0.0, 0.0};
@@ -141,7 +141,7 @@ class Matcher {
     for (int round = 0; round < options_.rounds; ++round, scale *= options_.shrink) {
       const double x = scale * options_.heading_step_deg * px_per_deg;
       const double y = scale * options_.pitch_step_deg * px_per_deg;
-      const double turn = scale * options_.roll_step_deg * kRad;
+      const double turn = scale * options_.roll_step_deg * kRadPerDeg;
       if (round == 0) rounds.push_back({x, y, 0.0});
       rounds.push_back({x, y, turn});
     }

@@ -6,7 +6,6 @@
 
 #include "track/rendered_skyline.h"
 
-
 namespace ridgeline {
 namespace {
 

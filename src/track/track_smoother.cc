@@ -7,14 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <string>
+
+#include "base/angle.h"
 
 
 namespace ridgeline {
 namespace {
 
-constexpr double kRad = std::numbers::pi / 180.0;
 constexpr int kRounds = 3;
 // Bells farther from the trajectory than this many deviations are not of it.
 constexpr double kGate = 6.0;
@@ -22,7 +22,7 @@ constexpr double kGate = 6.0;
 // cam_from_world * v of a pose vector, as CamFromWorld(ViewAngles).
 template <typename T>
 Eigen::Matrix<T, 3, 3> RotationOf(const T* pose) {
-  const T h = pose[3] * T(kRad), p = -pose[4] * T(kRad), r = -pose[5] * T(kRad);
+  const T h = pose[3] * T(kRadPerDeg), p = -pose[4] * T(kRadPerDeg), r = -pose[5] * T(kRadPerDeg);
   using std::cos;
   using std::sin;
   Eigen::Matrix<T, 3, 3> level, pitch, roll;
@@ -46,7 +46,7 @@ struct StepResidual {
         step_root.cast<T>() * (r_before * step - motion.step_in_before.cast<T>());
     const Eigen::Matrix<T, 3, 3> turn = r_now * r_before.transpose() *
                                         motion.now_from_before.toRotationMatrix().transpose().cast<T>();
-    const T factor = T(0.5 / (kRad * motion.sigma_deg));
+    const T factor = T(0.5 / (kRadPerDeg * motion.sigma_deg));
     for (int k = 0; k < 3; ++k) residual[k] = off(k);
     residual[3] = factor * (turn(2, 1) - turn(1, 2));
     residual[4] = factor * (turn(0, 2) - turn(2, 0));

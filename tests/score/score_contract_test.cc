@@ -184,8 +184,7 @@ TEST(ScoreOptions, WeightsHaveNames) {
             "--set: score.weights.skyy: got an unknown key, expected e.g. \"score.weights.sky\"");
   EXPECT_EQ(refusal("score.weights=[1,2]"),
             "--set: score.weights: got [1,2], expected an object { \"skyline_edges\": ..., ... }");
-  EXPECT_EQ(refusal("score.weights.sky=-1"),
-            "score.weights.sky: got -1, expected >= 0");
+  EXPECT_EQ(refusal("score.weights.sky=-1"), "score.weights.sky: got -1, expected >= 0");
 }
 
 }  // namespace
