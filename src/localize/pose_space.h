@@ -27,7 +27,7 @@ struct PoseSpaceOptions {
   double tilt_scale_deg = 8.0;
   // Height of the camera above the terrain where the prior has no height [m], and how far it may
   // be off then at least.
-  double camera_height_m = 1.7;
+  double camera_height_m = kCameraHeightM;
   double camera_height_range_m = 0.5;
   // Whether poses in a building's footprint and off the DTM are skipped.
   bool free_space = true;
