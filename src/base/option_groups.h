@@ -37,6 +37,12 @@ class OptionGroups {
     return const_cast<Options&>(std::as_const(*this).Get<Options>());
   }
 
+  std::vector<std::string> Names() const {
+    std::vector<std::string> names;
+    for (const Group& group : groups_) names.push_back(group.name);
+    return names;
+  }
+
   void Visit(OptionVisitor& v) {
     for (Group& group : groups_) {
       v.Group(group.name, [&](OptionVisitor& g) { group.visit(group.options, g); });
