@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/skyline.h"
+#include "cli/skyline_command.h"
 
 #include <algorithm>
 #include <cmath>
