@@ -95,7 +95,7 @@ class Lister final : public OptionVisitor {
 }  // namespace
 
 bool NumberRange::Holds(double value) const {
-  return (with_lower ? value >= lower : value > lower) &&
+  return std::isfinite(value) && (with_lower ? value >= lower : value > lower) &&
          (with_upper ? value <= upper : value < upper);
 }
 

@@ -10,7 +10,7 @@
 
 namespace ridgeline {
 
-// The numbers that an option may be; NaN is in no range.
+// The numbers that an option may be; NaN and infinity are in no range.
 struct NumberRange {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();

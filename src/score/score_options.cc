@@ -2,9 +2,9 @@
 #include "score/score_options.h"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
+#include "base/error.h"
 #include "score/cue_table.h"
 #include "score/score_table.h"
 

@@ -128,7 +128,8 @@ TEST(NumberRange, HoldsWhatItsTextSays) {
   EXPECT_TRUE(LeftOpen(0.0, 1.0).Holds(1.0) && RightOpen(0.0, 1.0).Holds(0.0));
   EXPECT_FALSE(LeftOpen(0.0, 1.0).Holds(0.0) || RightOpen(0.0, 1.0).Holds(1.0));
   EXPECT_TRUE(AnyNumber().Holds(-1e300));
-  EXPECT_FALSE(AnyNumber().Holds(nan) || Positive().Holds(nan) || Positive().Holds(0.0));
+  EXPECT_FALSE(AnyNumber().Holds(nan) || AnyNumber().Holds(INFINITY));
+  EXPECT_FALSE(Positive().Holds(nan) || Positive().Holds(0.0));
   EXPECT_EQ(LeftOpen(0.0, 90.0).Text(), "(0, 90]");
   EXPECT_EQ(RightOpen(1e-6, 10000000.0).Text(), "[1e-06, 10000000)");
   EXPECT_EQ(MoreThan(3.0, "canny_low").Text(), "> canny_low");
