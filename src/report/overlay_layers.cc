@@ -132,17 +132,6 @@ OverlayLayer PlainEdgeLayer(const Scene& scene,
   return plain;
 }
 
-OverlayLayer SegmentLayer(std::span<const LineSegment> segments) {
-  OverlayLayer layer;
-  layer.name = "line found in the picture";
-  layer.color = {255, 240, 60};
-  layer.width_px = 1.0;
-  layer.opacity = 0.8;
-  layer.casing = false;
-  for (const LineSegment& segment : segments) layer.lines.push_back({segment.a, segment.b});
-  return layer;
-}
-
 OverlayLayer SkylineLayer(const Skyline& skyline) {
   OverlayLayer layer;
   layer.name = "skyline found in the picture";
