@@ -10,6 +10,7 @@
 #include <string>
 
 #include "base/angle.h"
+#include "camera/local_frame.h"
 
 
 namespace ridgeline {
@@ -91,7 +92,7 @@ class StretchSmoother {
   StretchSmoother(std::span<const TrackFrame> frames,
                   const Eigen::Vector3d& origin,
                   const SmootherOptions& options)
-      : frames_(frames), origin_(origin), options_(options), poses_(frames.size()) {}
+      : frames_(frames), local_{origin}, options_(options), poses_(frames.size()) {}
 
   // False: nothing of the stretch was tracked.
   bool Begin() {
@@ -99,9 +100,7 @@ class StretchSmoother {
     bool any = false;
     for (std::size_t i = 0; i < frames_.size(); ++i) {
       if (frames_[i].state != TrackState::kTracking || !frames_[i].pose) continue;
-      Pose local = *frames_[i].pose;
-      local.center_in_world -= origin_;
-      poses_[i] = VectorOf(local);
+      poses_[i] = VectorOf(local_.FromWorld(*frames_[i].pose));
       known[i] = any = true;
     }
     if (!any) return false;
@@ -146,8 +145,7 @@ class StretchSmoother {
     std::vector<std::optional<SmoothedPose>> results;
     for (const PoseVector& pose : poses_) {
       SmoothedPose smoothed;
-      smoothed.pose = PoseOf(pose);
-      smoothed.pose.center_in_world += origin_;
+      smoothed.pose = local_.ToWorld(PoseOf(pose));
       Eigen::Matrix<double, 6, 6, Eigen::RowMajor> block;
       if (!is_known || !covariance.GetCovarianceBlock(pose.data(), pose.data(), block.data())) {
         results.emplace_back();
@@ -216,7 +214,7 @@ class StretchSmoother {
   }
 
   std::span<const TrackFrame> frames_;
-  Eigen::Vector3d origin_;
+  LocalFrame local_;
   SmootherOptions options_;
   std::vector<PoseVector> poses_;
   std::unique_ptr<ceres::Problem> problem_;
