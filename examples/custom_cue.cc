@@ -60,12 +60,6 @@ struct ContrastOptions {
     v.Field("cut_off", cut_off, ridgeline::Positive());
   }
 };
-    require("factor", factor, 1.0);
-    require("blur_px", blur_px, 0.0);
-    require("spacing_px", spacing_px, 0.0);
-    require("cut_off", cut_off, 0.0);
-  }
-};
 
 // A cue is made once per picture and asked for some hundred thousand poses. What depends on the
 // picture alone is therefore done in the constructor; a pose costs a few look-ups per edge. It is

@@ -46,10 +46,7 @@ struct OnePlusOneOptions {
   void Visit(ridgeline::OptionVisitor& v) {
     v.Field("first_step", first_step, ridgeline::LeftOpen(0.0, 1.0));
     v.Field("last_step", last_step, ridgeline::Positive());
-    v.Rule("last_step",
-           last_step < first_step,
-           std::to_string(last_step),
-           "below first_step");
+    v.Rule("last_step", last_step < first_step, std::to_string(last_step), "below first_step");
   }
 };
 

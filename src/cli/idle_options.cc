@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/option_groups.h"
+#include "lines/detector_table.h"
 #include "optim/sampler_table.h"
 #include "score/area_classes.h"
 #include "score/line_energy.h"
@@ -55,7 +56,6 @@ std::vector<Rule> AllRules() {
   const Rule sampler = {"search.sampler.", "search.sampler.name", Sampler, {}};
   const Rule score = {"score.", "score.name", ScoreName, {}};
   std::vector<Rule> rules = {
-      {"lines.canny_", "lines.detector", Detector, {"hough", "fld"}},
       {"score.weights", "score.name", ScoreName, {"evidence"}},
       {"score.line_energy.max_distance_width",
        "score.line_energy.max_distance_px",
@@ -78,6 +78,11 @@ std::vector<Rule> AllRules() {
       {"search.fit.", "search.refine", Refine, {"true"}},
       {"search.fit.", "search.refinement", Refinement, {"fit"}},
   };
+  Rule canny = {"lines.canny_", "lines.detector", Detector, {}};
+  for (const DetectorPlugin* detector : DetectorTable()) {
+    if (detector->reads_canny) canny.values.emplace_back(detector->name);
+  }
+  rules.push_back(canny);
   AddGroups(ScoreTable(), score, rules);
   AddGroups(SamplerTable(), sampler, rules);
   for (const std::string& group : EvidenceOptions().cues.Names()) {

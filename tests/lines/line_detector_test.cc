@@ -105,8 +105,9 @@ TEST(LineDetectionOptions, BadValuesAreNamed) {
     CheckOptions(options, "lines");
     FAIL() << "nothing thrown";
   } catch (const InputError& e) {
-    EXPECT_STREQ(e.what(),
-                 "lines.detector: got \"sobel\", expected lsd, edlines, fld, hough or file");
+    std::string names;
+    for (const std::string& name : DetectorNames()) names += (names.empty() ? "" : ", ") + name;
+    EXPECT_EQ(e.what(), "lines.detector: got \"sobel\", expected " + names + " or file");
   }
   options = {};
   options.min_length_px = 0.0;

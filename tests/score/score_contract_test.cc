@@ -150,10 +150,9 @@ TEST(ScoreTable, AnUnknownNameIsRefused) {
     FindScore("evidense");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_EQ(std::string(error.what()),
-              "score.name: got \"evidense\", expected one of evidence, line_energy, "
-              "line_energy_zbuffer, skyline_l1, gradient, oriented_chamfer, unexplained, areas, "
-              "line_energy_rays");
+    std::string names;
+    for (const std::string& name : ScoreNames()) names += (names.empty() ? "" : ", ") + name;
+    EXPECT_EQ(error.what(), "score.name: got \"evidense\", expected one of " + names);
   }
 }
 
