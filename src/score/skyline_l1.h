@@ -32,7 +32,7 @@ struct SkylineL1Options {
   // hide the sky.
   double max_deviation_px = 60.0;
   double max_obstructed_px = 20.0;
-  // Columns compared, spread evenly over the picture; at most kMaxColumns.
+  // Columns compared, spread evenly over the picture; at most 640.
   int columns = 320;
   // Least share of known columns for the picture to be usable.
   double min_known_share = 0.1;
