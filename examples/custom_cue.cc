@@ -34,7 +34,6 @@
 #include <memory>
 #include <opencv2/imgproc.hpp>
 
-#include "base/error.h"
 #include "input/dataset.h"
 #include "input/read_picture.h"
 #include "input/world.h"
@@ -55,23 +54,10 @@ struct ContrastOptions {
   double cut_off = 6.0;     // of g / m
 
   void Visit(ridgeline::OptionVisitor& v) {
-    v.Field("factor", factor);
-    v.Field("blur_px", blur_px);
-    v.Field("spacing_px", spacing_px);
-    v.Field("cut_off", cut_off);
-  }
-  void Validate() const {
-    const auto require = [](const char* field, double value, double above) {
-      if (value > above) return;
-      throw ridgeline::InputError("",
-                                  std::string("score.evidence.contrast.") + field,
-                                  std::to_string(value),
-                                  "> " + std::to_string(above));
-    };
-    require("factor", factor, 1.0);
-    require("blur_px", blur_px, 0.0);
-    require("spacing_px", spacing_px, 0.0);
-    require("cut_off", cut_off, 0.0);
+    v.Field("factor", factor, ridgeline::MoreThan(1.0));
+    v.Field("blur_px", blur_px, ridgeline::Positive());
+    v.Field("spacing_px", spacing_px, ridgeline::Positive());
+    v.Field("cut_off", cut_off, ridgeline::Positive());
   }
 };
 

@@ -25,7 +25,6 @@
 #include <memory>
 #include <string>
 
-#include "base/error.h"
 #include "base/random.h"
 #include "input/dataset.h"
 #include "input/read_picture.h"
@@ -45,15 +44,9 @@ struct OnePlusOneOptions {
   double last_step = 0.002;  // below it, begin anew
 
   void Visit(ridgeline::OptionVisitor& v) {
-    v.Field("first_step", first_step);
-    v.Field("last_step", last_step);
-  }
-  void Validate() const {
-    if (0.0 < last_step && last_step < first_step && first_step <= 1.0) return;
-    throw ridgeline::InputError("",
-                                "sampler.one_plus_one.last_step",
-                                std::to_string(last_step),
-                                "above 0 and below first_step, which is at most 1");
+    v.Field("first_step", first_step, ridgeline::LeftOpen(0.0, 1.0));
+    v.Field("last_step", last_step, ridgeline::Positive());
+    v.Rule("last_step", last_step < first_step, std::to_string(last_step), "below first_step");
   }
 };
 

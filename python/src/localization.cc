@@ -128,7 +128,7 @@ PoseSpaceOptions RangesOf(py::handle value, const PoseSpaceOptions& ranges) {
   }
   SetAll(py::reinterpret_borrow<py::dict>(value),
          [&changed](OptionVisitor& v) { changed.Visit(v); });
-  changed.Validate();
+  CheckOptions(changed, "search");
   return changed;
 }
 

@@ -20,7 +20,7 @@ py::array Detect(py::handle image, const std::string& detector, const py::dict& 
   LineDetectionOptions options;
   options.detector = detector;
   SetAll(set, [&](OptionVisitor& v) { options.Visit(v); });
-  options.Validate();
+  CheckOptions(options, "lines");
   if (options.detector == kLinesFromFile) FindDetector(options.detector);
   const cv::Mat picture = PictureOf(image);
   std::vector<LineSegment> segments;
@@ -34,7 +34,7 @@ py::array Detect(py::handle image, const std::string& detector, const py::dict& 
 py::dict ExtractedSkyline(py::handle image, const py::dict& set) {
   SkylineOptions options;
   SetAll(set, [&](OptionVisitor& v) { options.Visit(v); });
-  options.Validate();
+  CheckOptions(options, "skyline");
   const cv::Mat picture = PictureOf(image);
   Skyline skyline;
   {

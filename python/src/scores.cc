@@ -73,7 +73,7 @@ SharedScore MadeScore(const SharedPicture& picture, const std::string& name, py:
   if (!weights.is_none()) {
     made->options.weights = weights.cast<std::map<std::string, double>>();
   }
-  made->options.Validate();
+  CheckOptions(made->options, "score");
   const LongCall call;
   made->score = MakeScore({made->picture->evidence, made->scene(), made->options});
   return made;

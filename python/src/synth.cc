@@ -15,7 +15,7 @@ namespace {
 std::string Town(py::handle folder, const py::dict& set, int threads) {
   TownDatasetOptions options;
   SetAll(set, [&options](OptionVisitor& v) { options.Visit(v); });
-  options.Validate();
+  CheckOptions(options);
   const std::filesystem::path path = PathOf(folder);
   std::error_code error;
   if (std::filesystem::exists(path, error)) {

@@ -25,7 +25,7 @@ struct OwnedTracker {
 std::unique_ptr<OwnedTracker> Made(const SharedScene& scene, const py::dict& set) {
   SkylineTrackOptions options;
   SetAll(set, [&options](OptionVisitor& v) { options.Visit(v); });
-  options.Validate();
+  CheckOptions(options);
   if (options.extractor == "file") {
     throw InputError("", "extractor", "\"file\"", "path or canny; `ridgeline skyline` reads files");
   }

@@ -4,16 +4,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <opencv2/core.hpp>
 
+#include "base/angle.h"
 #include "base/error.h"
 #include "base/parallel.h"
 
 namespace ridgeline {
 namespace {
 
-constexpr double kRad = std::numbers::pi / 180.0;
 constexpr int kStripRows = 16;
 // Shadow rays begin this far off their surface [m].
 constexpr double kOffM = 0.03;
@@ -100,10 +99,10 @@ void InsertionOptions::Validate() const {
 }
 
 Eigen::Vector3d Towards(double azimuth_deg, double elevation_deg) {
-  const double level = std::cos(elevation_deg * kRad);
-  return {level * std::sin(azimuth_deg * kRad),
-          level * std::cos(azimuth_deg * kRad),
-          std::sin(elevation_deg * kRad)};
+  const double level = std::cos(elevation_deg * kRadPerDeg);
+  return {level * std::sin(azimuth_deg * kRadPerDeg),
+          level * std::cos(azimuth_deg * kRadPerDeg),
+          std::sin(elevation_deg * kRadPerDeg)};
 }
 
 Inserter::Inserter(const Scene& city, const TexturedMesh& mesh)

@@ -78,11 +78,11 @@ cv::Mat TextureOf(const aiScene& scene,
   return texture;
 }
 
-Material MaterialOf(const aiScene& scene,
-                    const aiMaterial& from,
-                    const fs::path& folder,
-                    std::vector<std::string>& warnings) {
-  Material material;
+MeshMaterial MaterialOf(const aiScene& scene,
+                        const aiMaterial& from,
+                        const fs::path& folder,
+                        std::vector<std::string>& warnings) {
+  MeshMaterial material;
   material.name = from.GetName().C_Str();
   aiColor4D colour;
   if (aiGetMaterialColor(&from, AI_MATKEY_BASE_COLOR, &colour) == AI_SUCCESS ||

@@ -6,12 +6,11 @@
 #include <cstring>
 #include <numbers>
 
+#include "base/angle.h"
 #include "base/error.h"
 
 namespace ridgeline {
 namespace {
-
-constexpr double kRadians = std::numbers::pi / 180.0;
 
 // Days since 2000-01-01 12:00 UTC of a date of the Gregorian calendar.
 double DaysSince2000(const UtcTime& t) {
@@ -69,28 +68,29 @@ UtcTime ParseTime(const std::string& text, const std::string& option) {
 SunDirection SunAt(const UtcTime& time, double latitude_deg, double longitude_deg) {
   const double days = DaysSince2000(time);
   const double mean_longitude = 280.460 + 0.9856474 * days;
-  const double anomaly = (357.528 + 0.9856003 * days) * kRadians;
+  const double anomaly = (357.528 + 0.9856003 * days) * kRadPerDeg;
   const double ecliptic =
-      (mean_longitude + 1.915 * std::sin(anomaly) + 0.020 * std::sin(2.0 * anomaly)) * kRadians;
-  const double obliquity = (23.439 - 0.0000004 * days) * kRadians;
+      (mean_longitude + 1.915 * std::sin(anomaly) + 0.020 * std::sin(2.0 * anomaly)) * kRadPerDeg;
+  const double obliquity = (23.439 - 0.0000004 * days) * kRadPerDeg;
   const double ascension =
       std::atan2(std::cos(obliquity) * std::sin(ecliptic), std::cos(ecliptic));
   const double declination = std::asin(std::sin(obliquity) * std::sin(ecliptic));
   const double sidereal_deg = 280.46061837 + 360.98564736629 * days + longitude_deg;
-  const double hour_angle = std::remainder(sidereal_deg * kRadians - ascension, 2.0 * std::numbers::pi);
-  const double latitude = latitude_deg * kRadians;
+  const double hour_angle =
+      std::remainder(sidereal_deg * kRadPerDeg - ascension, 2.0 * std::numbers::pi);
+  const double latitude = latitude_deg * kRadPerDeg;
   const double sine = std::sin(latitude) * std::sin(declination) +
                       std::cos(latitude) * std::cos(declination) * std::cos(hour_angle);
   SunDirection sun;
-  sun.elevation_deg = std::asin(sine) / kRadians;
+  sun.elevation_deg = std::asin(sine) / kRadPerDeg;
   const double azimuth =
       std::atan2(-std::sin(hour_angle),
                  std::tan(declination) * std::cos(latitude) -
                      std::sin(latitude) * std::cos(hour_angle));
-  sun.azimuth_deg = std::fmod(azimuth / kRadians + 360.0, 360.0);
+  sun.azimuth_deg = std::fmod(azimuth / kRadPerDeg + 360.0, 360.0);
   if (sun.elevation_deg > -1.0) {
     const double h = sun.elevation_deg;
-    sun.elevation_deg += 1.02 / 60.0 / std::tan((h + 10.3 / (h + 5.11)) * kRadians);
+    sun.elevation_deg += 1.02 / 60.0 / std::tan((h + 10.3 / (h + 5.11)) * kRadPerDeg);
   }
   return sun;
 }

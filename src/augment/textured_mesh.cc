@@ -97,7 +97,7 @@ cv::Vec4f ColourAt(const TexturedMesh& mesh,
                    std::uint32_t face,
                    const Eigen::Vector3f& barycentric) {
   const TexturedMesh::Face& f = mesh.faces[face];
-  const Material& material = mesh.materials[f.material];
+  const MeshMaterial& material = mesh.materials[f.material];
   cv::Vec4f colour(material.bgr[0], material.bgr[1], material.bgr[2], material.opacity);
   if (material.texture.empty()) return colour;
   const Eigen::Vector2f uv =

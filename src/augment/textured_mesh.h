@@ -14,7 +14,7 @@
 namespace ridgeline {
 
 // How a surface looks.
-struct Material {
+struct MeshMaterial {
   std::string name;
   cv::Vec3f bgr = {200.0f, 205.0f, 210.0f};  // [0, 255], times the texture's
   float opacity = 1.0f;
@@ -32,7 +32,7 @@ struct TexturedMesh {
   };
   std::vector<Eigen::Vector3d> vertices;  // east, north, height [m], in a frame of its own
   std::vector<Face> faces;
-  std::vector<Material> materials;
+  std::vector<MeshMaterial> materials;
   std::vector<std::string> warnings;
 };
 

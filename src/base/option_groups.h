@@ -15,15 +15,14 @@ namespace ridgeline {
 // them need not know the types. Copied by value.
 class OptionGroups {
  public:
-  // Adds a group with the defaults of its type, which has Visit() and Validate(). Plug-ins may
-  // share a group: where the type is there already, nothing changes.
+  // Adds a group with the defaults of its type, which has Visit(). Plug-ins may share a group:
+  // where the type is there already, nothing changes.
   template <typename Options>
   void Add(const char* name) {
     if (Find<Options>() != nullptr) return;
-    groups_.push_back({name,
-                       Options{},
-                       [](std::any& o, OptionVisitor& v) { std::any_cast<Options&>(o).Visit(v); },
-                       [](const std::any& o) { std::any_cast<const Options&>(o).Validate(); }});
+    groups_.push_back({name, Options{}, [](std::any& o, OptionVisitor& v) {
+                         std::any_cast<Options&>(o).Visit(v);
+                       }});
   }
 
   // The group of a type; it must have been added.
@@ -38,14 +37,16 @@ class OptionGroups {
     return const_cast<Options&>(std::as_const(*this).Get<Options>());
   }
 
+  std::vector<std::string> Names() const {
+    std::vector<std::string> names;
+    for (const Group& group : groups_) names.push_back(group.name);
+    return names;
+  }
+
   void Visit(OptionVisitor& v) {
     for (Group& group : groups_) {
       v.Group(group.name, [&](OptionVisitor& g) { group.visit(group.options, g); });
     }
-  }
-  // Throws InputError as the groups do.
-  void Validate() const {
-    for (const Group& group : groups_) group.validate(group.options);
   }
 
  private:
@@ -53,7 +54,6 @@ class OptionGroups {
     std::string name;
     std::any options;
     void (*visit)(std::any&, OptionVisitor&);
-    void (*validate)(const std::any&);
   };
 
   template <typename Options>

@@ -20,10 +20,14 @@ class JsonWriter final : public OptionVisitor {
  public:
   explicit JsonWriter(OrderedJson& out) : out_(out) { out_ = OrderedJson::object(); }
   void Field(std::string_view name, bool& value) override { Put(name, value); }
-  void Field(std::string_view name, int& value) override { Put(name, value); }
-  void Field(std::string_view name, double& value) override { Put(name, value); }
-  void Field(std::string_view name, std::string& value) override { Put(name, value); }
-  void Field(std::string_view name, std::vector<double>& value) override { Put(name, value); }
+  void Field(std::string_view name, int& value, const NumberRange&) override { Put(name, value); }
+  void Field(std::string_view name, double& value, const NumberRange&) override {
+    Put(name, value);
+  }
+  void Field(std::string_view name, std::string& value, const OneOf&) override { Put(name, value); }
+  void Field(std::string_view name, std::vector<double>& value, const NumberRange&) override {
+    Put(name, value);
+  }
   void Field(std::string_view name, std::vector<std::string>& value) override { Put(name, value); }
   void Group(std::string_view name, const std::function<void(OptionVisitor&)>& fields) override {
     JsonWriter writer(out_[std::string(name)]);
@@ -47,23 +51,23 @@ class JsonReader final : public OptionVisitor {
   void Field(std::string_view name, bool& value) override {
     Get(name, value, "true or false", [](const Json& j) { return j.is_boolean(); });
   }
-  void Field(std::string_view name, int& value) override {
+  void Field(std::string_view name, int& value, const NumberRange&) override {
     Get(name, value, "a whole number", [](const Json& j) {
       constexpr double kMost = std::numeric_limits<int>::max();
       return j.is_number_integer() && std::abs(j.get<double>()) <= kMost;
     });
   }
-  void Field(std::string_view name, double& value) override {
+  void Field(std::string_view name, double& value, const NumberRange&) override {
     Get(name, value, "a number", [](const Json& j) { return j.is_number(); });
     // Beyond it no option means anything, and squares overflow.
     constexpr double kMost = 1e9;
     if (std::abs(value) <= kMost) return;
     throw InputError(file_, Path(name), JsonText(Json(value)), "a number of at most 1e9");
   }
-  void Field(std::string_view name, std::string& value) override {
+  void Field(std::string_view name, std::string& value, const OneOf&) override {
     Get(name, value, "a text", [](const Json& j) { return j.is_string(); });
   }
-  void Field(std::string_view name, std::vector<double>& value) override {
+  void Field(std::string_view name, std::vector<double>& value, const NumberRange&) override {
     Get(name, value, "a list of numbers", [](const Json& j) {
       return j.is_array() &&
              std::all_of(j.begin(), j.end(), [](const Json& e) { return e.is_number(); });

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "base/format_text.h"
 #include "camera/picture_facts.h"
 
 // The parts of FactsOf. Each fills in what is still absent, so that the finer source comes first.
@@ -13,9 +14,6 @@ namespace ridgeline {
 std::optional<PictureFacts::Place> PlaceAt(std::optional<double> latitude,
                                            std::optional<double> longitude,
                                            const std::string& source);
-
-// A text with numbers, for doubts and notes.
-[[gnu::format(printf, 1, 2)]] std::string FormatText(const char* format, ...);
 
 // Takes an altitude [m] that can be one: not 0 to the last digit (never written), nor out of
 // [-1000, 20000].

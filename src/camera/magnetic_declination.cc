@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "base/angle.h"
+
 namespace ridgeline {
 namespace {
 
@@ -19,7 +21,6 @@ struct Gauss {
 
 constexpr int kDegree = 12;
 constexpr double kEpoch = 2025.0;
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 // WMM2025.COF, NOAA NCEI, 2024-11-13: degree 1 order 0, 1 1, 2 0, ..., 12 12.
 // clang-format off

@@ -2,8 +2,6 @@
 #include "camera/picture_facts.h"
 
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 
 #include "base/error.h"
 #include "camera/facts_parts.h"
@@ -16,15 +14,6 @@ std::optional<PictureFacts::Place> PlaceAt(std::optional<double> latitude,
   if (!latitude || !longitude || (*latitude == 0.0 && *longitude == 0.0)) return std::nullopt;
   if (std::abs(*latitude) > 90.0 || std::abs(*longitude) > 360.0) return std::nullopt;
   return PictureFacts::Place{*latitude, *longitude, source};
-}
-
-std::string FormatText(const char* format, ...) {
-  char text[320];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof(text), format, arguments);
-  va_end(arguments);
-  return text;
 }
 
 void TakeAltitude(double altitude_m,

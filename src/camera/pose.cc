@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "base/angle.h"
 
 namespace ridgeline {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 Eigen::Matrix3d RotationX(double rad) {
   return Eigen::AngleAxisd(rad, Eigen::Vector3d::UnitX()).toRotationMatrix();

@@ -6,6 +6,10 @@
 
 namespace ridgeline {
 
+// Height of a camera in the hand above the ground that its owner stands on [m], where no option
+// says another (search.camera_height_m does).
+inline constexpr double kCameraHeightM = 1.7;
+
 // What is known of a pose before looking at the picture. Parts that are not known are absent.
 struct PosePrior {
   Eigen::Vector2d position_in_world = Eigen::Vector2d::Zero();  // easting, northing [m]

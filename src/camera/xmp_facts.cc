@@ -2,11 +2,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <string_view>
 #include <system_error>
 
+#include "base/angle.h"
 #include "camera/facts_parts.h"
 #include "camera/pose.h"
 
@@ -61,7 +61,6 @@ struct Angles {
 
 // Yaw, pitch, roll turn the body (x to the front, y to the right, z down) about z, then y, then x.
 Eigen::Quaterniond CamFromWorld(const Angles& angles, Convention convention) {
-  constexpr double kRadPerDeg = std::numbers::pi / 180.0;
   const auto turn = [](double deg, const Eigen::Vector3d& axis) {
     return Eigen::AngleAxisd(deg * kRadPerDeg, axis);
   };

@@ -26,7 +26,7 @@ struct CityOptions : MeshOptions {
   void Visit(OptionVisitor& v) {
     v.Field("model_crs", model_crs);
     v.Field("project_to", project_to);
-    v.Field("height_offset_m", height_offset_m);
+    v.Field("height_offset_m", height_offset_m, Closed(-10000.0, 10000.0));
     MeshOptions::Visit(v);
   }
   // Throws InputError naming the field, e.g. "city.weld_m".

@@ -34,24 +34,12 @@ std::string BoxText(const Eigen::AlignedBox2d& box) {
          whole(box.max().y()) + " N";
 }
 
-void CheckRange(const char* field, double value, double lowest, double highest) {
-  if (value >= lowest && value <= highest) return;  // false for NaN
-  throw InputError(
-      "", std::string("city.") + field, Number(value), Number(lowest) + " to " + Number(highest));
-}
-
 }  // namespace
 
 void CityOptions::Validate() const {
+  CheckOptions(*this, "city");
   ParseCrsOption("model_crs", model_crs);
   ParseCrsOption("project_to", project_to);
-  CheckRange("height_offset_m", height_offset_m, -10000.0, 10000.0);
-  CheckRange("lod", lod, 1, 4);
-  CheckRange("min_dihedral_deg", min_dihedral_deg, 0.1, 170.0);
-  CheckRange("weld_m", weld_m, 1e-6, 0.5);
-  CheckRange("adjoin_m", adjoin_m, 1e-3, 1.0);
-  CheckRange("joint_m", joint_m, 0.0, 2.0);
-  CheckRange("threads", threads, 0, 4096);
 }
 
 CityModel ReadCity(const std::vector<fs::path>& paths, const CityOptions& options) {

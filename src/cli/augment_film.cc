@@ -12,6 +12,7 @@
 #include "augment/impact.h"
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "camera/local_frame.h"
 #include "cli/augment_parts.h"
 #include "cli/command.h"
 #include "cli/out_folder.h"
@@ -101,9 +102,8 @@ std::optional<Pose> PoseFor(const AugmentArguments& arguments,
   return frame.truth;
 }
 
-std::optional<Pose> Local(std::optional<Pose> pose, const Eigen::Vector3d& origin) {
-  if (pose) pose->center_in_world -= origin;
-  return pose;
+std::optional<Pose> Local(const std::optional<Pose>& pose, const LocalFrame& frame) {
+  return pose ? std::optional<Pose>(frame.FromWorld(*pose)) : std::nullopt;
 }
 
 std::string StabilityRow(const char* poses, const InsertionStability& s) {
@@ -125,7 +125,7 @@ int RunAugmentFilm(const AugmentArguments& arguments, const Context& context) {
   ApplyConfig({"", arguments.set}, [&](OptionVisitor& v) {
     v.Group("sensors", [&](OptionVisitor& g) { sensors.Visit(g); });
   });
-  sensors.Validate();
+  CheckOptions(sensors, "sensors");
   const std::unique_ptr<SequenceInput> input =
       ReadSequence(SequenceOf(arguments), sensors, context.threads);
   for (const std::string& warning : input->warnings) context.Warn(warning);
@@ -138,7 +138,7 @@ int RunAugmentFilm(const AugmentArguments& arguments, const Context& context) {
   options.threads = context.threads;
   options.towards_sun = LightOf(arguments, *input->model, mesh, context);
   const Inserter inserter(*input->scene, mesh);
-  const Eigen::Vector3d& origin = input->model->origin_in_world;
+  const LocalFrame local{input->model->origin_in_world};
   const fs::path temporary = TemporaryBeside(arguments.film);
   constexpr double kPictureRate = 5.0;
   std::vector<InsertedFrame> drawn, by_instruments;
@@ -161,9 +161,9 @@ int RunAugmentFilm(const AugmentArguments& arguments, const Context& context) {
       ++frames;
       picture = UndistortImage(picture, *known.camera);
       const PinholeCamera camera = known.camera->Pinhole();
-      const std::optional<Pose> pose = Local(PoseFor(arguments, poses, known), origin);
-      drawn.push_back({camera, pose, Local(known.truth, origin)});
-      by_instruments.push_back({camera, Local(known.start, origin), Local(known.truth, origin)});
+      const std::optional<Pose> pose = Local(PoseFor(arguments, poses, known), local);
+      drawn.push_back({camera, pose, Local(known.truth, local)});
+      by_instruments.push_back({camera, Local(known.start, local), Local(known.truth, local)});
       if (!pose) {
         film.Add(picture);  // as it is: a guess would be worse
         continue;

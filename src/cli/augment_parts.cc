@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <numbers>
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
 #include "augment/impact.h"
 #include "augment/sun.h"
+#include "base/angle.h"
 #include "base/error.h"
 #include "city/crs.h"
 #include "city/read_city.h"
@@ -76,12 +76,12 @@ TexturedMesh InWorldCoordinates(const AugmentArguments& arguments,
 
 // Grid azimuth of a direction from true north, at a place of the system [world].
 double GridAzimuth(double true_deg, const Crs& crs, const Eigen::Vector2d& place) {
-  constexpr double kStepM = 100.0, kRad = std::numbers::pi / 180.0;
+  constexpr double kStepM = 100.0;
   const auto here = LatitudeLongitude(crs, place);
   const auto north = LatitudeLongitude(crs, place + Eigen::Vector2d(0.0, kStepM));
   if (!here || !north) return true_deg;
-  const double east = (north->y() - here->y()) * std::cos(here->x() * kRad);
-  return true_deg - std::atan2(east, north->x() - here->x()) / kRad;
+  const double east = (north->y() - here->y()) * std::cos(here->x() * kRadPerDeg);
+  return true_deg - std::atan2(east, north->x() - here->x()) / kRadPerDeg;
 }
 
 }  // namespace

@@ -14,8 +14,8 @@
 #include "base/error.h"
 #include "city/crs.h"
 #include "cli/command.h"
+#include "convert/dataset_formats.h"
 #include "convert/doubts.h"
-#include "convert/formats.h"
 
 namespace ridgeline {
 namespace {

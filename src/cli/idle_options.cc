@@ -2,17 +2,23 @@
 #include "cli/idle_options.h"
 
 #include <algorithm>
+#include <map>
+#include <span>
 
 #include "base/error.h"
+#include "base/option_groups.h"
+#include "lines/detector_table.h"
+#include "optim/sampler_table.h"
 #include "score/area_classes.h"
 #include "score/line_energy.h"
+#include "score/score_table.h"
 
 namespace ridgeline {
 namespace {
 
 // Options below a prefix work if another option has one of some values.
 struct Rule {
-  const char* prefix;
+  std::string prefix;
   const char* other;
   std::string (*value)(const LocalizerOptions&);
   std::vector<std::string> values;
@@ -32,17 +38,29 @@ std::string Sampler(const LocalizerOptions& o) { return o.search.sampler.name; }
 std::string Refine(const LocalizerOptions& o) { return o.search.refine ? "true" : "false"; }
 std::string Refinement(const LocalizerOptions& o) { return o.search.refinement; }
 
-const std::vector<Rule>& Rules() {
-  static const std::vector<Rule> rules = {
-      {"lines.canny_", "lines.detector", Detector, {"hough", "fld"}},
+// The options of a plug-in's groups work if one that declares the group is chosen.
+template <typename Plugin>
+void AddGroups(std::span<const Plugin* const> table, const Rule& chosen, std::vector<Rule>& rules) {
+  std::map<std::string, std::vector<std::string>> users;
+  for (const Plugin* plugin : table) {
+    OptionGroups groups;
+    plugin->declare(groups);
+    for (const std::string& group : groups.Names()) users[group].emplace_back(plugin->name);
+  }
+  for (const auto& [group, names] : users) {
+    rules.push_back({chosen.prefix + group + ".", chosen.other, chosen.value, names});
+  }
+}
+
+std::vector<Rule> AllRules() {
+  const Rule sampler = {"search.sampler.", "search.sampler.name", Sampler, {}};
+  const Rule score = {"score.", "score.name", ScoreName, {}};
+  std::vector<Rule> rules = {
       {"score.weights", "score.name", ScoreName, {"evidence"}},
-      {"score.evidence.sky.", "score.name", ScoreName, {"evidence"}},
-      {"score.evidence.facades.", "score.name", ScoreName, {"evidence"}},
-      {"score.evidence.colours.", "score.name", ScoreName, {"evidence"}},
-      {"score.line_energy.", "score.name", ScoreName, {"line_energy", "line_energy_zbuffer", "line_energy_rays"}},
-      {"score.line_energy.max_distance_width", "score.line_energy.max_distance_px", DistanceBy, {"0"}},
-      {"score.zbuffer_hough.", "score.name", ScoreName, {"line_energy_zbuffer"}},
-      {"score.areas.", "score.name", ScoreName, {"areas"}},
+      {"score.line_energy.max_distance_width",
+       "score.line_energy.max_distance_px",
+       DistanceBy,
+       {"0"}},
       {"score.areas.file", "score.areas.source", AreaSource, {"file"}},
       {"score.areas.building", "score.areas.source", AreaSource, {"file"}},
       {"score.areas.roof", "score.areas.source", AreaSource, {"file"}},
@@ -50,27 +68,27 @@ const std::vector<Rule>& Rules() {
       {"score.areas.sky", "score.areas.source", AreaSource, {"file"}},
       {"score.areas.ground", "score.areas.source", AreaSource, {"file"}},
       {"score.areas.unknown", "score.areas.source", AreaSource, {"file"}},
-      {"score.rays.", "score.name", ScoreName, {"line_energy_rays"}},
-      {"score.oriented_chamfer.", "score.name", ScoreName, {"oriented_chamfer"}},
-      {"score.gradient.", "score.name", ScoreName, {"gradient"}},
-      {"score.unexplained.", "score.name", ScoreName, {"unexplained"}},
-      {"score.skyline.", "score.name", ScoreName, {"skyline_l1"}},
-      {"score.skyline_l1.", "score.name", ScoreName, {"skyline_l1"}},
-      {"search.map.", "search.method", Method, {"map"}},
+      {"search.map.spacing_m", "search.method", Method, {"map"}},
+      {"search.map.heading_step_deg", "search.method", Method, {"map"}},
+      {"search.map.max_positions", "search.method", Method, {"map"}},
+      {"search.map.tilts", "search.method", Method, {"map"}},
       {"search.evaluations", "search.method", Method, {"sampler"}},
       {"search.sampler.", "search.method", Method, {"sampler"}},
-      {"search.sampler.tpe.", "search.sampler.name", Sampler, {"tpe", "tpe_multivariate"}},
-      {"search.sampler.gp.", "search.sampler.name", Sampler, {"gp", "gp_de"}},
-      {"search.sampler.cmaes.", "search.sampler.name", Sampler, {"cmaes"}},
-      {"search.sampler.de.", "search.sampler.name", Sampler, {"de", "gp_de"}},
-      {"search.sampler.gp_de.", "search.sampler.name", Sampler, {"gp_de"}},
-      {"search.sampler.nelder_mead.", "search.sampler.name", Sampler, {"nelder_mead"}},
-      {"search.sampler.grid.", "search.sampler.name", Sampler, {"grid"}},
-      {"search.sampler.multi_start.", "search.sampler.name", Sampler, {"multi_start"}},
       {"search.refinement", "search.refine", Refine, {"true"}},
       {"search.fit.", "search.refine", Refine, {"true"}},
       {"search.fit.", "search.refinement", Refinement, {"fit"}},
   };
+  Rule canny = {"lines.canny_", "lines.detector", Detector, {}};
+  for (const DetectorPlugin* detector : DetectorTable()) {
+    if (detector->reads_canny) canny.values.emplace_back(detector->name);
+  }
+  rules.push_back(canny);
+  AddGroups(ScoreTable(), score, rules);
+  AddGroups(SamplerTable(), sampler, rules);
+  for (const std::string& group : EvidenceOptions().cues.Names()) {
+    if (group == "lines") continue;  // the goodness of any answer and its fit read them, too
+    rules.push_back({"score.evidence." + group + ".", score.other, score.value, {"evidence"}});
+  }
   return rules;
 }
 
@@ -86,9 +104,10 @@ std::string Either(const std::string& option, const std::vector<std::string>& va
 
 void RefuseIdleOptions(const std::vector<std::string>& assignments,
                        const LocalizerOptions& options) {
+  const std::vector<Rule> rules = AllRules();
   for (const std::string& assignment : assignments) {
     const std::string key = assignment.substr(0, assignment.find('='));
-    for (const Rule& rule : Rules()) {
+    for (const Rule& rule : rules) {
       if (!key.starts_with(rule.prefix)) continue;
       const std::string value = rule.value(options);
       if (std::find(rule.values.begin(), rule.values.end(), value) != rule.values.end()) continue;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "camera/local_frame.h"
 #include "city/read_city.h"
 #include "cli/command.h"
 #include "cli/out_folder.h"
@@ -67,8 +68,8 @@ void AddChosenPicture(const Query& query,
                                  options.score.evidence,
                                  1,
                                  input.lines);
-  Pose truth = *query.truth;
-  truth.center_in_world -= localizer.scene().model().origin_in_world;
+  const Pose truth =
+      LocalFrame{localizer.scene().model().origin_in_world}.FromWorld(*query.truth);
   AddLoeperFigures(DrawLoeperFigures(evidence.bgr(),
                                      evidence.segments(),
                                      localizer.scene().model(),
@@ -136,16 +137,14 @@ std::optional<AyadiFrame> FrameOf(SequenceInput& input, std::size_t index, bool 
   if (!known.camera || !known.start) return std::nullopt;
   const cv::Mat picture = input.source->Read(index);
   if (picture.empty()) return std::nullopt;
-  const Eigen::Vector3d& origin = input.model->origin_in_world;
+  const LocalFrame local{input.model->origin_in_world};
   AyadiFrame frame;
   frame.id = known.id;
   frame.picture = UndistortImage(picture, *known.camera);
   frame.camera = known.camera->Pinhole();
-  frame.instruments = *known.start;
-  frame.instruments.center_in_world -= origin;
+  frame.instruments = local.FromWorld(*known.start);
   if (known.truth) {
-    frame.truth = *known.truth;
-    frame.truth->center_in_world -= origin;
+    frame.truth = local.FromWorld(*known.truth);
     if (known_position) frame.instruments.center_in_world = frame.truth->center_in_world;
   } else if (known_position) {
     throw InputError("--known-position", "", known.id + " without a truth", "true positions");
@@ -198,7 +197,7 @@ int RunAyadi(AyadiArguments& arguments, const Context& context) {
   ApplyConfig({"", arguments.set}, [&](OptionVisitor& v) {
     v.Group("sensors", [&](OptionVisitor& g) { arguments.sensors.Visit(g); });
   });
-  arguments.sensors.Validate();
+  CheckOptions(arguments.sensors, "sensors");
   const OutFolder out_folder("--out", arguments.out);
   const std::unique_ptr<SequenceInput> input =
       ReadSequence(arguments.sequence, arguments.sensors, context.threads);

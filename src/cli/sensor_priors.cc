@@ -72,7 +72,7 @@ SensorOptions TakeSensorOptions(const std::string& sensors, std::vector<std::str
       v.Group("sensors", [&](OptionVisitor& g) { options.Visit(g); });
     });
   }
-  options.Validate();
+  CheckOptions(options, "sensors");
   set = std::move(rest);
   return options;
 }

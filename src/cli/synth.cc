@@ -133,7 +133,7 @@ int RunSynth(SynthArguments& arguments, const Context& context) {
   for (const std::string& assignment : arguments.set) {
     SetOption(assignment, [&](OptionVisitor& v) { is_walk ? walk.Visit(v) : options.Visit(v); });
   }
-  is_walk ? walk.Validate() : options.Validate();
+  is_walk ? CheckOptions(walk) : CheckOptions(options);
   fs::path out = fs::absolute(arguments.out).lexically_normal();
   if (!out.has_filename()) out = out.parent_path();
   CheckTarget(out, arguments.overwrite);

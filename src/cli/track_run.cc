@@ -10,6 +10,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "camera/local_frame.h"
 #include "city/crs.h"
 #include "cli/film.h"
 #include "cli/idle_options.h"
@@ -71,9 +72,8 @@ std::vector<OverlayLayer> LayersOf(const TrackFrame& frame,
                                    const CameraIntrinsics& camera,
                                    const Localizer& localizer) {
   if (!frame.pose) return {};
-  Pose local = *frame.pose;
-  local.center_in_world -= localizer.scene().model().origin_in_world;
-  return ModelEdgeLayers(localizer.scene(), camera.Pinhole(), local);
+  const LocalFrame local{localizer.scene().model().origin_in_world};
+  return ModelEdgeLayers(localizer.scene(), camera.Pinhole(), local.FromWorld(*frame.pose));
 }
 
 class Session {
@@ -310,10 +310,7 @@ void TrackRequest::Visit(OptionVisitor& v) {
 int RunTrack(TrackRequest& request, const Context& context) {
   CheckRequest(request);
   ApplyConfig(request.config, [&](OptionVisitor& v) { request.Visit(v); });
-  request.localizer.Validate();
-  request.track.Validate();
-  request.smoother.Validate();
-  request.sensors.Validate();
+  CheckVisited([&](OptionVisitor& v) { request.Visit(v); }, "");
   RefuseIdleOptions(request.config.set, request.localizer);
   const OutFolder out_folder("--out", request.out);
   CheckFileToWrite("--report", request.report);

@@ -36,10 +36,10 @@ std::vector<std::string> GroupsOf(const std::string& cue) {
    public:
     std::vector<std::string> names;
     void Field(std::string_view, bool&) override {}
-    void Field(std::string_view, int&) override {}
-    void Field(std::string_view, double&) override {}
-    void Field(std::string_view, std::string&) override {}
-    void Field(std::string_view, std::vector<double>&) override {}
+    void Field(std::string_view, int&, const NumberRange&) override {}
+    void Field(std::string_view, double&, const NumberRange&) override {}
+    void Field(std::string_view, std::string&, const OneOf&) override {}
+    void Field(std::string_view, std::vector<double>&, const NumberRange&) override {}
     void Field(std::string_view, std::vector<std::string>&) override {}
     void Group(std::string_view name, const std::function<void(OptionVisitor&)>&) override {
       names.emplace_back(name);

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/json_input.h"
 #include "camera/check_pose.h"
+#include "camera/local_frame.h"
 #include "city/crs.h"
 #include "input/picture_input.h"
 #include "input/prior_pose.h"
@@ -192,8 +193,7 @@ std::unique_ptr<ViewInput> ReadView(const ViewArguments& arguments, int threads)
       throw InputError("prior", "position", "no height", "a height, or a DTM that covers it");
     }
   }
-  view->cam_from_local = *place.pose;
-  view->cam_from_local.center_in_world -= view->model.origin_in_world;
+  view->cam_from_local = LocalFrame{view->model.origin_in_world}.FromWorld(*place.pose);
   return view;
 }
 

@@ -1,32 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "convert/topocentric.h"
 
-#include <cmath>
-#include <numbers>
+#include <proj.h>
 
+#include <cmath>
+#include <locale>
+#include <sstream>
+#include <string>
+
+#include "base/angle.h"
 #include "base/error.h"
 #include "city/crs.h"
 
 namespace ridgeline {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-constexpr double kSemiMajor = 6378137.0;  // WGS 84
-constexpr double kFlattening = 1.0 / 298.257223563;
-constexpr double kEccentricity2 = kFlattening * (2.0 - kFlattening);
-
-double PrimeVertical(double latitude_rad) {
-  const double s = std::sin(latitude_rad);
-  return kSemiMajor / std::sqrt(1.0 - kEccentricity2 * s * s);
-}
-
-Eigen::Vector3d EarthFromGeodetic(double latitude_rad, double longitude_rad, double height) {
-  const double n = PrimeVertical(latitude_rad);
-  const double from_axis = (n + height) * std::cos(latitude_rad);
-  return {from_axis * std::cos(longitude_rad),
-          from_axis * std::sin(longitude_rad),
-          (n * (1.0 - kEccentricity2) + height) * std::sin(latitude_rad)};
-}
 
 // Columns: east, north, up in earth-centred axes.
 Eigen::Matrix3d AxesAt(double latitude_rad, double longitude_rad) {
@@ -41,24 +28,43 @@ Eigen::Matrix3d AxesAt(double latitude_rad, double longitude_rad) {
 
 }  // namespace
 
+struct Topocentric::Impl {
+  PJ_CONTEXT* context = proj_context_create();
+  PJ* geodetic_from_local = nullptr;
+  Eigen::Matrix3d earth_from_local;
+
+  ~Impl() {
+    proj_destroy(geodetic_from_local);
+    proj_context_destroy(context);
+  }
+};
+
 Topocentric::Topocentric(double latitude_deg, double longitude_deg, double height_m)
-    : origin_in_earth_(
-          EarthFromGeodetic(latitude_deg * kRadPerDeg, longitude_deg * kRadPerDeg, height_m)),
-      earth_from_local_(AxesAt(latitude_deg * kRadPerDeg, longitude_deg * kRadPerDeg)) {}
+    : impl_(std::make_unique<Impl>()) {
+  impl_->earth_from_local = AxesAt(latitude_deg * kRadPerDeg, longitude_deg * kRadPerDeg);
+  std::ostringstream pipeline;
+  pipeline.imbue(std::locale::classic());
+  pipeline.precision(17);
+  pipeline << "+proj=pipeline +ellps=WGS84 +step +inv +proj=topocentric +lat_0=" << latitude_deg
+           << " +lon_0=" << longitude_deg << " +h_0=" << height_m
+           << " +step +inv +proj=cart +step +proj=unitconvert +xy_in=rad +xy_out=deg";
+  impl_->geodetic_from_local = proj_create(impl_->context, pipeline.str().c_str());
+  if (impl_->geodetic_from_local == nullptr) {
+    throw InputError("",
+                     "place of the topocentric frame",
+                     std::to_string(latitude_deg) + ", " + std::to_string(longitude_deg),
+                     "a latitude and a longitude [deg]");
+  }
+}
+
+Topocentric::~Topocentric() = default;
 
 Eigen::Vector3d Topocentric::Geodetic(const Eigen::Vector3d& east_north_up) const {
-  const Eigen::Vector3d point = origin_in_earth_ + earth_from_local_ * east_north_up;
-  const double from_axis = std::hypot(point.x(), point.y());
-  // Fixed point of the latitude; each round gains more than two digits near the ground.
-  double latitude = std::atan2(point.z(), from_axis * (1.0 - kEccentricity2));
-  for (int round = 0; round < 10; ++round) {
-    latitude = std::atan2(point.z() + kEccentricity2 * PrimeVertical(latitude) * std::sin(latitude),
-                          from_axis);
-  }
-  const double s = std::sin(latitude);
-  const double height = from_axis * std::cos(latitude) + point.z() * s -
-                        kSemiMajor * std::sqrt(1.0 - kEccentricity2 * s * s);
-  return {latitude / kRadPerDeg, std::atan2(point.y(), point.x()) / kRadPerDeg, height};
+  const PJ_COORD place =
+      proj_trans(impl_->geodetic_from_local,
+                 PJ_FWD,
+                 proj_coord(east_north_up.x(), east_north_up.y(), east_north_up.z(), 0.0));
+  return {place.xyz.y, place.xyz.x, place.xyz.z};
 }
 
 Pose Topocentric::ToProjected(const Pose& pose, const Crs& crs, const std::string& file) const {
@@ -78,7 +84,7 @@ Pose Topocentric::ToProjected(const Pose& pose, const Crs& crs, const std::strin
   const double s = std::sin(*convergence * kRadPerDeg);
   Eigen::Matrix3d true_from_grid;
   true_from_grid << c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0;
-  const Eigen::Matrix3d local_from_grid = earth_from_local_.transpose() *
+  const Eigen::Matrix3d local_from_grid = impl_->earth_from_local.transpose() *
                                           AxesAt(place.x() * kRadPerDeg, place.y() * kRadPerDeg) *
                                           true_from_grid;
   Pose projected;

@@ -13,6 +13,7 @@
 #include "base/decimals.h"
 #include "base/error.h"
 #include "camera/check_pose.h"
+#include "camera/local_frame.h"
 #include "eval/csv_text.h"
 #include "eval/egeniouss_metrics.h"
 
@@ -183,9 +184,10 @@ std::string PosesText(std::span<const RunRecord> runs, const Eigen::Vector3d& or
        << "# origin " << CsvNumber(origin.x(), 1) << ' ' << CsvNumber(origin.y(), 1) << ' '
        << CsvNumber(origin.z(), 1) << " (east north height)\n"
        << "# query seed qw qx qy qz tx ty tz\n";
+  const LocalFrame frame{origin};
   for (const RunRecord& run : runs) {
     if (!run.pose) continue;
-    const Pose relative{run.pose->cam_from_world, run.pose->center_in_world - origin};
+    const Pose relative = frame.FromWorld(*run.pose);
     const Eigen::Quaterniond& q = relative.cam_from_world;
     const Eigen::Vector3d t = relative.ColmapTranslation();
     text << run.query << ' ' << run.seed << ' ' << CsvNumber(q.w(), 9) << ' ' << CsvNumber(q.x(), 9)

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/decimals.h"
+#include "camera/local_frame.h"
 #include "city/crs.h"
 
 namespace ridgeline {
@@ -24,7 +25,7 @@ Json JsonOf(const Pose& pose, const CityModel& model) {
   const ViewAngles view = ViewAnglesOf(q);
   const OmegaPhiKappa photo = OmegaPhiKappaOf(q);
   const LoeperOmegaPhiKappa loeper = LoeperOmegaPhiKappaOf(q);
-  const Pose relative{q, pose.center_in_world - model.origin_in_world};
+  const Pose relative = LocalFrame{model.origin_in_world}.FromWorld(pose);
   Json json;
   json["position"] = JsonOf(pose.center_in_world);
   json["cam_from_world_wxyz"] = {Fine(q.w()), Fine(q.x()), Fine(q.y()), Fine(q.z())};

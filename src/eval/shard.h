@@ -16,7 +16,6 @@ struct Shard {
   bool Takes(std::size_t piece) const {
     return piece % static_cast<std::size_t>(count) == static_cast<std::size_t>(index - 1);
   }
-  bool IsWhole() const { return count == 1; }
 };
 
 // "2/3". Throws InputError("--shard", ...).

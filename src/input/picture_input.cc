@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <utility>
 
 #include "base/error.h"
+#include "base/format_text.h"
 #include "camera/magnetic_declination.h"
 #include "camera/picture_camera.h"
 #include "city/crs.h"
@@ -33,15 +32,6 @@ constexpr double kGimbalErrorDeg = 3.0;
 // The model's epoch, where a picture has no date.
 constexpr double kUnknownYear = 2025.0;
 
-__attribute__((format(printf, 1, 2))) std::string Format(const char* format, ...) {
-  char text[320];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof(text), format, arguments);
-  va_end(arguments);
-  return text;
-}
-
 // From grid north, with words on how it came about.
 double GridHeading(const PictureFacts& facts,
                    const Crs& crs,
@@ -50,25 +40,26 @@ double GridHeading(const PictureFacts& facts,
                    std::string& words) {
   const PictureFacts::Direction& direction = *facts.direction;
   double declination = 0.0;
-  words = Format("%.1f deg from %s north (%s)",
-                 direction.heading_deg,
-                 direction.magnetic ? "magnetic" : "true",
-                 direction.source.c_str());
+  words = FormatText("%.1f deg from %s north (%s)",
+                     direction.heading_deg,
+                     direction.magnetic ? "magnetic" : "true",
+                     direction.source.c_str());
   if (direction.magnetic) {
     if (options.declination_deg) {
       declination = *options.declination_deg;
-      words += Format(", declination %.1f as given", declination);
+      words += FormatText(", declination %.1f as given", declination);
     } else {
       declination = MagneticDeclinationDeg(
           facts.place->latitude_deg, facts.place->longitude_deg, facts.year.value_or(kUnknownYear));
-      words += Format(", declination %.1f by the World Magnetic Model%s",
-                      declination,
-                      facts.year ? "" : " for 2025, the date being unknown");
+      words += FormatText(", declination %.1f by the World Magnetic Model%s",
+                          declination,
+                          facts.year ? "" : " for 2025, the date being unknown");
     }
   }
   const double convergence = MeridianConvergenceDeg(crs, place).value_or(0.0);
   const double heading = WrapHeadingDeg(direction.heading_deg + declination - convergence);
-  words += Format(", meridian convergence %.2f: %.1f deg from grid north", convergence, heading);
+  words +=
+      FormatText(", meridian convergence %.2f: %.1f deg from grid north", convergence, heading);
   return heading;
 }
 
@@ -88,12 +79,12 @@ std::optional<double> AltitudeInModel(const PictureFacts& facts,
   }
   const double altitude_m =
       *facts.altitude_m + (model_above_ellipsoid ? *undulation_m : -*undulation_m);
-  input.notes.push_back(Format("altitude: %.1f m above %s = %.1f m above %s (EGM96: %.1f m)",
-                               *facts.altitude_m,
-                               model_above_ellipsoid ? "sea level" : "the ellipsoid",
-                               altitude_m,
-                               model_above_ellipsoid ? "the ellipsoid" : "sea level",
-                               *undulation_m));
+  input.notes.push_back(FormatText("altitude: %.1f m above %s = %.1f m above %s (EGM96: %.1f m)",
+                                   *facts.altitude_m,
+                                   model_above_ellipsoid ? "sea level" : "the ellipsoid",
+                                   altitude_m,
+                                   model_above_ellipsoid ? "the ellipsoid" : "sea level",
+                                   *undulation_m));
   return altitude_m;
 }
 
@@ -107,14 +98,14 @@ std::string OnGround(double altitude_m,
     return "; the altitude of the receiver is too rough to be used";
   }
   if (undulation_m && std::abs(above - *undulation_m) <= kReceiverHeightErrorM) {
-    return Format(
+    return FormatText(
         "; the altitude %.1f m was meant above the ellipsoid, as it seems (%.1f m above "
         "sea level), and is too rough to be used",
         altitude_m,
         altitude_m - *undulation_m);
   }
   if (above < 0.0) {
-    return Format(
+    return FormatText(
         "; the altitude %.1f m is not used, being %.0f m below the terrain", altitude_m, -above);
   }
   return "";
@@ -133,7 +124,7 @@ void SetHeightInTheAir(double altitude_m,
   const double above = altitude_m - terrain_m;
   if (above <= 0.0) {
     prior.height_in_world = terrain_m + input.height_m;
-    input.notes.push_back(Format(
+    input.notes.push_back(FormatText(
         "height: up to %.0f m above the terrain, since the picture is an aircraft's; its altitude "
         "%.1f m is not used, being %.0f m below the terrain",
         2.0 * input.height_m,
@@ -143,11 +134,11 @@ void SetHeightInTheAir(double altitude_m,
   }
   prior.height_in_world = altitude_m;
   input.notes.push_back(
-      Format("height: %.1f m, the picture's altitude, +- %.0f m: %s %.0f m above the terrain",
-             altitude_m,
-             input.height_m,
-             from_aircraft ? "an aircraft's picture," : "it seems to be taken from the air,",
-             above));
+      FormatText("height: %.1f m, the picture's altitude, +- %.0f m: %s %.0f m above the terrain",
+                 altitude_m,
+                 input.height_m,
+                 from_aircraft ? "an aircraft's picture," : "it seems to be taken from the air,",
+                 above));
 }
 
 void SetHeight(const PictureFacts& facts,
@@ -161,7 +152,7 @@ void SetHeight(const PictureFacts& facts,
     const double above = ground ? *facts.height_above_ground_m : *facts.altitude_above_takeoff_m;
     prior.height_in_world = *terrain_m + above;
     input.height_m = kTakeoffErrorM;
-    input.notes.push_back(Format(
+    input.notes.push_back(FormatText(
         "height: %.1f m = terrain below + %.1f m above %s",
         *prior.height_in_world,
         above,
@@ -177,12 +168,12 @@ void SetHeight(const PictureFacts& facts,
       SetHeightInTheAir(*altitude_m, *terrain_m, undulation_m, facts.from_aircraft, prior, input);
       return;
     }
-    input.notes.push_back(Format("height: terrain + %.1f m assumed", options.camera_height_m) +
+    input.notes.push_back(FormatText("height: terrain + %.1f m assumed", options.camera_height_m) +
                           on_ground);
     return;
   }
   if (!altitude_m) {
-    input.notes.push_back(Format(
+    input.notes.push_back(FormatText(
         "height: terrain + %.1f m assumed%s",
         options.camera_height_m,
         facts.from_aircraft ? ", though an aircraft took the picture: it tells no height that "
@@ -192,10 +183,10 @@ void SetHeight(const PictureFacts& facts,
   }
   prior.height_in_world = altitude_m;
   input.height_m = kAltitudeErrorM;
-  input.notes.push_back(
-      Format("height: %.1f m, the picture's altitude, taken as the model's height for lack of a "
-             "terrain model (--dtm)",
-             *altitude_m));
+  input.notes.push_back(FormatText(
+      "height: %.1f m, the picture's altitude, taken as the model's height for lack of a "
+      "terrain model (--dtm)",
+      *altitude_m));
 }
 
 // The terrain's height at a place; nullopt where the raster has none.
@@ -240,7 +231,7 @@ std::optional<PosePrior> PriorOf(const PictureFacts& facts,
     throw InputError(
         file,
         "position",
-        Format(
+        FormatText(
             "latitude %.6f, longitude %.6f", facts.place->latitude_deg, facts.place->longitude_deg),
         "a place in the reach of " + CrsName(crs) + " (--prior FILE gives another)");
   }
@@ -250,12 +241,12 @@ std::optional<PosePrior> PriorOf(const PictureFacts& facts,
   if (facts.horizontal_error_m) {
     input.horizontal_m = std::clamp(2.0 * *facts.horizontal_error_m, kReceiverErrorM, kMostErrorM);
   }
-  input.notes.push_back(Format("position: %.6f, %.6f (%s) = %.1f east, %.1f north",
-                               facts.place->latitude_deg,
-                               facts.place->longitude_deg,
-                               facts.place->source.c_str(),
-                               place->x(),
-                               place->y()));
+  input.notes.push_back(FormatText("position: %.6f, %.6f (%s) = %.1f east, %.1f north",
+                                   facts.place->latitude_deg,
+                                   facts.place->longitude_deg,
+                                   facts.place->source.c_str(),
+                                   place->x(),
+                                   place->y()));
   SetHeight(facts, crs, terrain_m, options, prior, input);
   if (facts.direction) {
     std::string words;
@@ -271,10 +262,10 @@ std::optional<PosePrior> PriorOf(const PictureFacts& facts,
   input.pitch_deg = known_tilt ? kGimbalErrorDeg : kHandPitchDeg;
   input.roll_deg = known_tilt ? kGimbalErrorDeg : kHandRollDeg;
   if (known_tilt) {
-    input.notes.push_back(Format("pitch, roll: %.1f, %.1f deg (%s)",
-                                 *prior.pitch_deg,
-                                 prior.roll_deg.value_or(0.0),
-                                 facts.direction->source.c_str()));
+    input.notes.push_back(FormatText("pitch, roll: %.1f, %.1f deg (%s)",
+                                     *prior.pitch_deg,
+                                     prior.roll_deg.value_or(0.0),
+                                     facts.direction->source.c_str()));
   } else {
     input.notes.push_back("pitch, roll: not told by the picture; held level assumed");
   }
@@ -294,7 +285,7 @@ PictureInput ReadPictureInput(const Query& query,
     input.camera = made.camera;
     input.orientation = facts.orientation;
     input.focal_lengths = made.focal_lengths;
-    input.notes.push_back(Format("camera: f = %.0f px, ", made.camera.params.front()) +
+    input.notes.push_back(FormatText("camera: f = %.0f px, ", made.camera.params.front()) +
                           made.source + "; no distortion assumed" +
                           (facts.orientation != 1 ? "; turned upright as its EXIF says" : ""));
     input.notes.insert(input.notes.end(), made.notes.begin(), made.notes.end());
@@ -311,8 +302,8 @@ PictureInput ReadPictureInput(const Query& query,
   if (input.prior && turned != 0.0) {
     input.prior->roll_deg = HeadingDifferenceDeg(input.prior->roll_deg.value_or(0.0) + turned, 0.0);
     input.notes.push_back(
-        Format("roll: %.0f deg, since the calibrated picture is stored on its side (EXIF)",
-               *input.prior->roll_deg));
+        FormatText("roll: %.0f deg, since the calibrated picture is stored on its side (EXIF)",
+                   *input.prior->roll_deg));
   }
   return input;
 }

@@ -14,10 +14,6 @@
 
 namespace ridgeline {
 
-// Height of a camera in the hand above the ground that its owner stands on [m], where no option
-// says another (search.camera_height_m does).
-inline constexpr double kCameraHeightM = 1.7;
-
 // The prior as a pose in the world frame: what it leaves open is level, to the north, and
 // `camera_height_m` above the terrain. nullopt: the height is open, and there is no terrain at the
 // place.

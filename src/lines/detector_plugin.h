@@ -16,6 +16,7 @@ struct DetectorPlugin {
   // Segments x0, y0, x1, y1 of a picture of one channel, 8 bit; whole numbers are pixel centres, as
   // in OpenCV. Directions, lengths and joints are seen to by DetectLines().
   std::vector<cv::Vec4f> (*detect)(const cv::Mat& gray, const LineDetectionOptions& options);
+  bool reads_canny = false;  // LineDetectionOptions::canny_low and canny_high
 };
 
 }  // namespace ridgeline

@@ -24,6 +24,7 @@ std::vector<cv::Vec4f> DetectFld(const cv::Mat& gray, const LineDetectionOptions
 }  // namespace
 
 extern const DetectorPlugin kFldDetector;
-constinit const DetectorPlugin kFldDetector = {.name = "fld", .detect = DetectFld};
+constinit const DetectorPlugin kFldDetector = {
+    .name = "fld", .detect = DetectFld, .reads_canny = true};
 
 }  // namespace ridgeline

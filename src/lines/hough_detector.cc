@@ -19,6 +19,7 @@ std::vector<cv::Vec4f> DetectHough(const cv::Mat& gray, const LineDetectionOptio
 }  // namespace
 
 extern const DetectorPlugin kHoughDetector;
-constinit const DetectorPlugin kHoughDetector = {.name = "hough", .detect = DetectHough};
+constinit const DetectorPlugin kHoughDetector = {
+    .name = "hough", .detect = DetectHough, .reads_canny = true};
 
 }  // namespace ridgeline

@@ -6,7 +6,6 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "base/error.h"
 #include "lines/detector_table.h"
 
 namespace ridgeline {
@@ -62,19 +61,6 @@ Joint TryJoin(const LineSegment& base, const LineSegment& other, double max_gap_
 
 }  // namespace
 
-void LineDetectionOptions::Validate() const {
-  if (detector != kLinesFromFile) FindDetector(detector);
-  if (!(min_length_px > 0.0)) {
-    throw InputError("", "lines.min_length_px", std::to_string(min_length_px), "> 0");
-  }
-  if (!(max_gap_px >= 0.0)) {
-    throw InputError("", "lines.max_gap_px", std::to_string(max_gap_px), ">= 0");
-  }
-  if (!(canny_low >= 0.0 && canny_high > canny_low)) {
-    throw InputError("", "lines.canny_high", std::to_string(canny_high), "> lines.canny_low >= 0");
-  }
-}
-
 cv::Mat GrayOf(const cv::Mat& picture) {
   cv::Mat eight_bit = picture;
   if (picture.depth() == CV_16U) picture.convertTo(eight_bit, CV_8U, 1.0 / 257.0);
@@ -109,6 +95,16 @@ std::vector<LineSegment> MergeCollinear(std::vector<LineSegment> segments, doubl
     merged.push_back(base);
   }
   return merged;
+}
+
+void LineDetectionOptions::Visit(OptionVisitor& v) {
+  OneOf detectors{DetectorNames()};
+  detectors.words.push_back(kLinesFromFile);
+  v.Field("detector", detector, detectors);
+  v.Field("min_length_px", min_length_px, Positive());
+  v.Field("max_gap_px", max_gap_px, NotNegative());
+  v.Field("canny_low", canny_low, NotNegative());
+  v.Field("canny_high", canny_high, MoreThan(canny_low, "canny_low"));
 }
 
 std::vector<LineSegment> DetectLines(const cv::Mat& picture, const LineDetectionOptions& options) {

@@ -24,15 +24,7 @@ struct LineDetectionOptions {
   double canny_low = 50.0;
   double canny_high = 150.0;
 
-  void Visit(OptionVisitor& v) {
-    v.Field("detector", detector);
-    v.Field("min_length_px", min_length_px);
-    v.Field("max_gap_px", max_gap_px);
-    v.Field("canny_low", canny_low);
-    v.Field("canny_high", canny_high);
-  }
-  // Throws InputError naming the field, e.g. "lines.min_length_px".
-  void Validate() const;
+  void Visit(OptionVisitor& v);
 };
 
 // Straight segments of a picture (any channels; 8 or 16 bit), in the order of the detector.

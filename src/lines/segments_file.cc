@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lines/segments_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <string>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/limits.h"
 
 namespace ridgeline {
 namespace {
@@ -46,6 +48,11 @@ std::vector<LineSegment> ReadSegments(const std::filesystem::path& path,
     segment.b = UndistortedPoint(camera, x1, y1);
     segment.strength = static_cast<float>(score);
     if (segment.Length() > 0.0f) segments.push_back(segment);
+    if (segments.size() > limits::kSegments) {
+      const std::string most = std::to_string(limits::kSegments);
+      throw InputError(
+          path.string(), "limit", "more than " + most + " segments", "at most " + most);
+    }
   }
   return segments;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "camera/local_frame.h"
 #include "localize/posterior.h"
 #include "localize/widen.h"
 
@@ -108,6 +109,7 @@ void Believe(const SearchedPoses& found,
              Localization& result) {
   const PoseSpace& space = scorer.space();
   const CityModel& model = scorer.scene().model();
+  const LocalFrame frame{model.origin_in_world};
   const ScoredPose& best = found.modes.front();
   const Posterior posterior = found.volume ? PosteriorOf(*found.volume, found.modes, space, options)
                                            : PosteriorOf(found.modes, options);
@@ -116,8 +118,7 @@ void Believe(const SearchedPoses& found,
   result.modes.clear();
   for (const ScoredPose& mode : found.modes) {
     const std::optional<Pose> local = space.PoseAt(mode.offset);
-    result.modes.push_back({{local->cam_from_world, local->center_in_world + model.origin_in_world},
-                            Score::EnergyOf(mode.log_ratio)});
+    result.modes.push_back({frame.ToWorld(*local), Score::EnergyOf(mode.log_ratio)});
   }
   result.energy = result.modes.front().energy;
   result.goodness = GoodnessOf(scorer, best.offset);

@@ -3,31 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <utility>
-
-#include "base/error.h"
 
 namespace ridgeline {
-namespace {
-
-void RequirePositive(const char* name, double value) {
-  if (value > 0.0) return;
-  throw InputError("", std::string("confidence.") + name, std::to_string(value), "> 0");
-}
-
-void RequireShare(const char* name, double value) {
-  if (value >= 0.0 && value <= 1.0) return;
-  throw InputError("", std::string("confidence.") + name, std::to_string(value), "[0, 1]");
-}
-
-}  // namespace
 
 void OutcomeModel::Visit(OptionVisitor& v) {
-  v.Field("offset", offset);
-  v.Field("explained", explained);
-  v.Field("above_background", above_background);
-  v.Field("mass_power", mass_power);
+  v.Field("offset", offset, AnyNumber());
+  v.Field("explained", explained, AnyNumber());
+  v.Field("above_background", above_background, AnyNumber());
+  v.Field("mass_power", mass_power, NotNegative());
 }
 
 double OutcomeModel::Probability(double posterior_mass,
@@ -45,30 +28,14 @@ double OutcomeModel::Probability(double posterior_mass,
 }
 
 void ConfidenceOptions::Visit(OptionVisitor& v) {
-  v.Field("abstain_below", abstain_below);
-  v.Field("doubtful_below", doubtful_below);
+  v.Field("abstain_below", abstain_below, Closed(0.0, 1.0));
+  v.Field("doubtful_below", doubtful_below, Closed(0.0, 1.0));
   v.Group("right", [this](OptionVisitor& g) { right.Visit(g); });
   v.Group("near", [this](OptionVisitor& g) { near.Visit(g); });
-  v.Field("alert_limit_m", alert_limit_m);
-  v.Field("temperature", temperature);
-  v.Field("floor_m", floor_m);
-  v.Field("floor_deg", floor_deg);
-}
-
-void ConfidenceOptions::Validate() const {
-  RequireShare("abstain_below", abstain_below);
-  RequireShare("doubtful_below", doubtful_below);
-  if (!(alert_limit_m >= 0.0)) {
-    throw InputError("", "confidence.alert_limit_m", std::to_string(alert_limit_m), ">= 0");
-  }
-  for (const auto& [name, power] : {std::pair{"right.mass_power", right.mass_power},
-                                    std::pair{"near.mass_power", near.mass_power}}) {
-    if (power >= 0.0) continue;
-    throw InputError("", std::string("confidence.") + name, std::to_string(power), ">= 0");
-  }
-  RequirePositive("temperature", temperature);
-  RequirePositive("floor_m", floor_m);
-  RequirePositive("floor_deg", floor_deg);
+  v.Field("alert_limit_m", alert_limit_m, NotNegative());
+  v.Field("temperature", temperature, Positive());
+  v.Field("floor_m", floor_m, Positive());
+  v.Field("floor_deg", floor_deg, Positive());
 }
 
 }  // namespace ridgeline

@@ -43,7 +43,6 @@ struct ConfidenceOptions {
   double floor_deg = 0.5;
 
   void Visit(OptionVisitor& v);
-  void Validate() const;
 };
 
 }  // namespace ridgeline

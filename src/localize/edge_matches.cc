@@ -7,8 +7,6 @@
 #include <numbers>
 #include <string>
 
-#include "base/error.h"
-
 namespace ridgeline {
 namespace {
 
@@ -62,21 +60,6 @@ std::uint64_t GroupOf(const FeatureEdge& edge, const CityModel& model) {
 }
 
 }  // namespace
-
-void EdgeMatchOptions::Validate() const {
-  const auto require = [](const char* name, double value, bool is_good, const char* expected) {
-    if (is_good) return;
-    throw InputError(
-        "", std::string("search.fit.matches.") + name, std::to_string(value), expected);
-  };
-  require("max_angle_deg", max_angle_deg, max_angle_deg > 0.0 && max_angle_deg <= 90.0, "(0, 90]");
-  require("max_sigmas", max_sigmas, max_sigmas > 0.0, "> 0");
-  require("min_overlap_width", min_overlap_width, min_overlap_width > 0.0, "> 0");
-  require("full_overlap_width", full_overlap_width, full_overlap_width >= min_overlap_width,
-          ">= min_overlap_width");
-  require("dark_sky_factor", dark_sky_factor, dark_sky_factor > 0.0 && dark_sky_factor <= 1.0,
-          "(0, 1]");
-}
 
 Eigen::Vector3d OverhangOf(const FeatureEdge& edge, const CityModel& model) {
   if (edge.surface0 == kNoSurface || edge.surface1 == kNoSurface) return Eigen::Vector3d::Zero();

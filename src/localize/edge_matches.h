@@ -54,14 +54,14 @@ struct EdgeMatchOptions {
   double dark_sky_factor = 0.3;
 
   void Visit(OptionVisitor& v) {
-    v.Field("max_angle_deg", max_angle_deg);
-    v.Field("max_sigmas", max_sigmas);
-    v.Field("min_overlap_width", min_overlap_width);
-    v.Field("full_overlap_width", full_overlap_width);
-    v.Field("dark_sky_factor", dark_sky_factor);
+    v.Field("max_angle_deg", max_angle_deg, LeftOpen(0.0, 90.0));
+    v.Field("max_sigmas", max_sigmas, Positive());
+    v.Field("min_overlap_width", min_overlap_width, Positive());
+    v.Field("full_overlap_width",
+            full_overlap_width,
+            AtLeast(min_overlap_width, "min_overlap_width"));
+    v.Field("dark_sky_factor", dark_sky_factor, LeftOpen(0.0, 1.0));
   }
-  // Throws InputError naming the field, e.g. "search.fit.matches.max_angle_deg".
-  void Validate() const;
 };
 
 // Finds for the edges seen from a pose the picture's lines beside them: nearest first, one line for

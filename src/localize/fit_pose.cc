@@ -7,7 +7,7 @@
 #include <numbers>
 #include <optional>
 
-#include "base/error.h"
+#include "base/angle.h"
 #include "lines/angle_to_direction.h"
 #include "score/position_view.h"
 
@@ -159,7 +159,6 @@ class Fitter {
                                             double tolerance) const {
     std::vector<DirectionMatch> verticals;
     if (!limits_.IsFree(kPitch) && !limits_.IsFree(kRoll)) return verticals;
-    constexpr double kRadPerDeg = std::numbers::pi / 180.0;
     constexpr double kSigmaDeg = 1.0;  // as in FindTilts
     constexpr double kVerticalShare = 0.3;
     constexpr double kMaxSigmas = 3.0;
@@ -228,22 +227,6 @@ class Fitter {
 };
 
 }  // namespace
-
-void PoseFitOptions::Validate() const {
-  const auto require = [](const char* name, double value, bool is_good, const char* expected) {
-    if (is_good) return;
-    throw InputError("", std::string("search.fit.") + name, std::to_string(value), expected);
-  };
-  matches.Validate();
-  require("first_tolerance", first_tolerance, first_tolerance >= 1.0, ">= 1");
-  require("max_rounds", max_rounds, max_rounds > 0, "> 0");
-  require("focal_range_percent", focal_range_percent,
-          focal_range_percent >= 0.0 && focal_range_percent <= 50.0, "[0, 50]");
-  require("max_overhang_m", max_overhang_m, max_overhang_m >= 0.0, ">= 0");
-  require("max_move_m", max_move_m, max_move_m >= 0.0, ">= 0");
-  require("max_turn_deg", max_turn_deg, max_turn_deg >= 0.0, ">= 0");
-  require("max_loss", max_loss, max_loss >= 0.0, ">= 0");
-}
 
 PoseFit FitPose(const PictureLines& lines,
                 const Scene& scene,

@@ -30,15 +30,13 @@ struct PoseFitOptions {
 
   void Visit(OptionVisitor& v) {
     v.Group("matches", [this](OptionVisitor& g) { matches.Visit(g); });
-    v.Field("max_rounds", max_rounds);
-    v.Field("focal_range_percent", focal_range_percent);
-    v.Field("max_overhang_m", max_overhang_m);
-    v.Field("max_move_m", max_move_m);
-    v.Field("max_turn_deg", max_turn_deg);
-    v.Field("max_loss", max_loss);
+    v.Field("max_rounds", max_rounds, Positive());
+    v.Field("focal_range_percent", focal_range_percent, Closed(0.0, 50.0));
+    v.Field("max_overhang_m", max_overhang_m, NotNegative());
+    v.Field("max_move_m", max_move_m, NotNegative());
+    v.Field("max_turn_deg", max_turn_deg, NotNegative());
+    v.Field("max_loss", max_loss, NotNegative());
   }
-  // Throws InputError naming the field, e.g. "search.fit.max_rounds".
-  void Validate() const;
 };
 
 enum class PoseFitStatus : std::uint8_t {

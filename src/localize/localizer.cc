@@ -341,7 +341,7 @@ Localization Localizer::Localize(const LocalizationInput& input,
                                  const PoseSpaceOptions& ranges,
                                  std::uint64_t seed,
                                  int threads) const {
-  ranges.Validate();
+  CheckOptions(ranges, "search");
   CheckInput(input, impl_->model);
   // Look: at the picture.
   Stopwatch watch;

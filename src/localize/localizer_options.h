@@ -29,7 +29,6 @@ struct MapOptions {
   double mode_separation_deg = 2.5;
 
   void Visit(OptionVisitor& v);
-  void Validate() const;
 };
 
 struct SearchOptions {
@@ -49,7 +48,6 @@ struct SearchOptions {
   PoseFitOptions fit;
 
   void Visit(OptionVisitor& v);
-  void Validate() const;
 };
 
 // Everything that can be set about a localization; configs/default.json is a dump of it.

@@ -10,12 +10,12 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <numbers>
+
+#include "base/angle.h"
 
 namespace ridgeline {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kNearPlane = 0.1;  // [m]
 
 // camera/pose.cc: cam_from_world = Roll * Pitch * Level.

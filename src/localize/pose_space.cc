@@ -9,33 +9,10 @@
 namespace ridgeline {
 namespace {
 
-void CheckRange(const char* name, double value, double upper) {
-  if (value >= 0.0 && value <= upper) return;
-  throw InputError("", std::string("search.") + name, std::to_string(value),
-                   "[0, " + std::to_string(upper) + "]");
-}
-
 // A camera below this height over the ground of the terrain model is under ground for certain.
 constexpr double kMinHeightAboveTerrain = 0.2;
 
 }  // namespace
-
-void PoseSpaceOptions::Validate() const {
-  constexpr double kMaxRange = 1000.0;
-  CheckRange("east_m", east_m, kMaxRange);
-  CheckRange("north_m", north_m, kMaxRange);
-  CheckRange("height_m", height_m, kMaxRange);
-  CheckRange("camera_height_range_m", camera_height_range_m, kMaxRange);
-  CheckRange("heading_deg", heading_deg, 180.0);
-  CheckRange("pitch_deg", pitch_deg, 90.0);
-  CheckRange("roll_deg", roll_deg, 180.0);
-  if (!(tilt_scale_deg > 0.0)) {
-    throw InputError("", "search.tilt_scale_deg", std::to_string(tilt_scale_deg), "> 0");
-  }
-  if (!(camera_height_m > 0.0 && camera_height_m <= kMaxRange)) {
-    throw InputError("", "search.camera_height_m", std::to_string(camera_height_m), "(0, 1000]");
-  }
-}
 
 PoseSpace::PoseSpace(const PosePrior& prior,
                      const PoseSpaceOptions& options,

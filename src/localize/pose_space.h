@@ -27,26 +27,24 @@ struct PoseSpaceOptions {
   double tilt_scale_deg = 8.0;
   // Height of the camera above the terrain where the prior has no height [m], and how far it may
   // be off then at least: one standard deviation.
-  double camera_height_m = 1.7;
+  double camera_height_m = kCameraHeightM;
   double camera_height_range_m = 0.5;
   // Whether poses in a building's footprint and off the DTM are skipped.
   bool free_space = true;
 
   bool operator==(const PoseSpaceOptions&) const = default;
   void Visit(OptionVisitor& v) {
-    v.Field("east_m", east_m);
-    v.Field("north_m", north_m);
-    v.Field("height_m", height_m);
-    v.Field("heading_deg", heading_deg);
-    v.Field("pitch_deg", pitch_deg);
-    v.Field("roll_deg", roll_deg);
-    v.Field("tilt_scale_deg", tilt_scale_deg);
-    v.Field("camera_height_m", camera_height_m);
-    v.Field("camera_height_range_m", camera_height_range_m);
+    v.Field("east_m", east_m, Closed(0.0, 1000.0));
+    v.Field("north_m", north_m, Closed(0.0, 1000.0));
+    v.Field("height_m", height_m, Closed(0.0, 1000.0));
+    v.Field("heading_deg", heading_deg, Closed(0.0, 180.0));
+    v.Field("pitch_deg", pitch_deg, Closed(0.0, 90.0));
+    v.Field("roll_deg", roll_deg, Closed(0.0, 180.0));
+    v.Field("tilt_scale_deg", tilt_scale_deg, Positive());
+    v.Field("camera_height_m", camera_height_m, LeftOpen(0.0, 1000.0));
+    v.Field("camera_height_range_m", camera_height_range_m, Closed(0.0, 1000.0));
     v.Field("free_space", free_space);
   }
-  // Throws InputError naming the field, e.g. "search.east_m".
-  void Validate() const;
 };
 
 // The poses that a prior and the terrain allow, as offsets from the prior. Heights follow the prior

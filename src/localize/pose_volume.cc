@@ -105,7 +105,6 @@ void FillVolume(const PoseScorer& scorer,
     }
   });
   for (std::size_t p = 0; p < admissible.size(); ++p) {
-    volume.admissible_positions += admissible[p];
     if (admissible[p] != 0) volume.evaluations += orientations[p].size();
   }
 }

@@ -25,7 +25,6 @@ struct PoseVolume {
   // of the model in view.
   std::vector<float> log_ratios;
   std::uint64_t evaluations = 0;
-  std::uint64_t admissible_positions = 0;
   // The highest log ratio of the first, tolerant look of ComputeVolumeCoarseToFine().
   double highest_first = 0.0;
 

@@ -24,6 +24,12 @@ using SmoothFunction = std::function<double(const Eigen::VectorXd& x, Eigen::Vec
 // Local minimum of a smooth function of few variables in a box, from `start` (clamped to the box):
 // BFGS on the variables that are free to move, with backtracking along the projected path
 // (Nocedal and Wright 2006, 6.1 and 16.7).
+//
+// Own code since the libraries tried do no better: NLopt's SLSQP in its place, with 1.3 evaluations
+// for each iteration here, takes 0.96 rather than 0.85 ms a trial and ends at medians of 0.0027
+// rather than 0.0013 (rosenbrock) and 5.8 rather than 4.0 (rastrigin), elsewhere the same
+// (`optim_quality 8 gp`: 8 seeds, 200 trials). NLopt's own L-BFGS is LGPL; Ceres bounds no line
+// search.
 BoxBfgsResult MinimizeInBox(const SmoothFunction& function,
                             const Eigen::VectorXd& start,
                             const Eigen::VectorXd& lower,

@@ -44,7 +44,6 @@ class GaussianProcess {
 
  private:
   Eigen::VectorXd Covariances(const Eigen::VectorXd& point) const;
-  Eigen::MatrixXd Factor() const;
 
   std::vector<bool> periodic_;
   Eigen::VectorXd inverse_lengths_;

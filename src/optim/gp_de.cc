@@ -6,16 +6,11 @@
 #include "base/random.h"
 #include "optim/batch_search.h"
 #include "optim/population.h"
-#include "optim/require.h"
 #include "optim/sampler_plugin.h"
 
 namespace ridgeline {
 
-void GpDeOptions::Visit(OptionVisitor& v) { v.Field("gp_trials", gp_trials); }
-
-void GpDeOptions::Validate() const {
-  Require(gp_trials >= 1, "gp_de.gp_trials", gp_trials, ">= 1");
-}
+void GpDeOptions::Visit(OptionVisitor& v) { v.Field("gp_trials", gp_trials, AtLeast(1)); }
 
 GpDe::GpDe(const StrategyContext& context,
            const GpOptions& gp,

@@ -18,8 +18,6 @@ struct GpDeOptions {
   int gp_trials = 200;
 
   void Visit(OptionVisitor& v);
-  // Throws InputError naming the field, e.g. "sampler.tpe.candidates".
-  void Validate() const;
 };
 
 // A Gaussian process for the first trials, which finds more with few than any other sampler here

@@ -11,7 +11,6 @@
 #include "optim/box_bfgs.h"
 #include "optim/expected_improvement.h"
 #include "optim/gp_likelihood.h"
-#include "optim/require.h"
 #include "optim/sampler_plugin.h"
 
 namespace ridgeline {
@@ -55,19 +54,11 @@ UnitPoint ToPoint(const VectorXd& x, const std::vector<bool>& periodic) {
 }  // namespace
 
 void GpOptions::Visit(OptionVisitor& v) {
-  v.Field("startup_trials", startup_trials);
-  v.Field("max_points", max_points);
-  v.Field("refit_growth", refit_growth);
-  v.Field("candidates", candidates);
-  v.Field("climbs", climbs);
-}
-
-void GpOptions::Validate() const {
-  Require(startup_trials >= 2, "gp.startup_trials", startup_trials, ">= 2");
-  Require(max_points >= 20, "gp.max_points", max_points, ">= 20");
-  Require(refit_growth >= 0.0, "gp.refit_growth", refit_growth, ">= 0");
-  Require(candidates >= 1, "gp.candidates", candidates, ">= 1");
-  Require(climbs >= 0, "gp.climbs", climbs, ">= 0");
+  v.Field("startup_trials", startup_trials, AtLeast(2));
+  v.Field("max_points", max_points, AtLeast(20));
+  v.Field("refit_growth", refit_growth, NotNegative());
+  v.Field("candidates", candidates, AtLeast(1));
+  v.Field("climbs", climbs, NotNegative());
 }
 
 GpStrategy::GpStrategy(const StrategyContext& context, const GpOptions& options)

@@ -23,8 +23,6 @@ struct GpOptions {
   int climbs = 4;
 
   void Visit(OptionVisitor& v);
-  // Throws InputError naming the field, e.g. "sampler.tpe.candidates".
-  void Validate() const;
 };
 
 // Bayesian optimization: a Gaussian process is fitted to the results, and the point of greatest

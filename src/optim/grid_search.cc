@@ -9,7 +9,6 @@
 #include "base/error.h"
 #include "optim/batch_search.h"
 #include "optim/places.h"
-#include "optim/require.h"
 #include "optim/sampler_plugin.h"
 
 namespace ridgeline {
@@ -91,18 +90,9 @@ void Append(const Batch& batch, std::vector<Vertex>& places) {
 }  // namespace
 
 void GridOptions::Visit(OptionVisitor& v) {
-  v.Field("coarse_points", coarse_points);
-  v.Field("keep", keep);
-  v.Field("finest", finest);
-}
-
-void GridOptions::Validate() const {
-  Require(coarse_points >= 1 && coarse_points <= kMostCoarsePoints,
-          "grid.coarse_points",
-          coarse_points,
-          "1 ... 10000000");
-  Require(keep >= 1, "grid.keep", keep, ">= 1");
-  Require(finest > 0.0 && finest < 1.0, "grid.finest", finest, "a value in (0, 1)");
+  v.Field("coarse_points", coarse_points, Closed(1, kMostCoarsePoints));
+  v.Field("keep", keep, AtLeast(1));
+  v.Field("finest", finest, Open(0.0, 1.0));
 }
 
 SearchRoutine GridSearch(StrategyContext context, GridOptions options) {

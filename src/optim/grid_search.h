@@ -16,8 +16,6 @@ struct GridOptions {
   double finest = 1e-4;
 
   void Visit(OptionVisitor& v);
-  // Throws InputError naming the field, e.g. "sampler.tpe.candidates".
-  void Validate() const;
 };
 
 // Dense, coarse to fine. A regular grid over the whole cube, visited in a random order (so that a

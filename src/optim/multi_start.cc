@@ -9,7 +9,6 @@
 
 #include "optim/batch_search.h"
 #include "optim/places.h"
-#include "optim/require.h"
 #include "optim/sampler_plugin.h"
 #include "optim/sobol.h"
 
@@ -24,15 +23,9 @@ constexpr double kSmallestSpacing = 0.01;
 }  // namespace
 
 void MultiStartOptions::Visit(OptionVisitor& v) {
-  v.Field("first_points", first_points);
-  v.Field("growth", growth);
-  v.Field("descents", descents);
-}
-
-void MultiStartOptions::Validate() const {
-  Require(first_points >= 4, "multi_start.first_points", first_points, ">= 4");
-  Require(growth >= 1.0 && growth <= 10.0, "multi_start.growth", growth, "a value in [1, 10]");
-  Require(descents >= 1, "multi_start.descents", descents, ">= 1");
+  v.Field("first_points", first_points, AtLeast(4));
+  v.Field("growth", growth, Closed(1.0, 10.0));
+  v.Field("descents", descents, AtLeast(1));
 }
 
 SearchRoutine MultiStart(StrategyContext context, MultiStartOptions options) {

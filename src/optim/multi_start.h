@@ -15,8 +15,6 @@ struct MultiStartOptions {
   int descents = 4;
 
   void Visit(OptionVisitor& v);
-  // Throws InputError naming the field, e.g. "sampler.tpe.candidates".
-  void Validate() const;
 };
 
 // Local descents from the best of ever more evenly spread points; after multi-level single linkage

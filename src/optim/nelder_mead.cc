@@ -8,7 +8,6 @@
 
 #include "base/error.h"
 #include "optim/batch_search.h"
-#include "optim/require.h"
 #include "optim/sampler_plugin.h"
 #include "optim/simplex.h"
 
@@ -48,22 +47,11 @@ void ValidateGroups(const NelderMeadOptions& options, std::vector<std::string> k
 }  // namespace
 
 void NelderMeadOptions::Visit(OptionVisitor& v) {
-  v.Field("steps", steps);
+  v.Field("steps", steps, Open(0.0, 1.0));
   v.Field("groups", groups);
-  v.Field("convergence", convergence);
-}
-
-void NelderMeadOptions::Validate() const {
-  Require(!steps.empty(), "nelder_mead.steps", "no steps", "at least one");
-  Require(!groups.empty(), "nelder_mead.groups", "no groups", "at least one, e.g. \"*\"");
-  for (const double step : steps) {
-    Require(
-        step > 0.0 && step < 1.0, "nelder_mead.steps", step, "fractions of the range in (0, 1)");
-  }
-  Require(convergence > 0.0 && convergence < 1.0,
-          "nelder_mead.convergence",
-          convergence,
-          "a value in (0, 1)");
+  v.Rule("steps", !steps.empty(), "no steps", "at least one");
+  v.Rule("groups", !groups.empty(), "no groups", "at least one, e.g. \"*\"");
+  v.Field("convergence", convergence, Open(0.0, 1.0));
 }
 
 SearchRoutine NelderMead(StrategyContext context, NelderMeadOptions options) {

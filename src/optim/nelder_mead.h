@@ -19,8 +19,6 @@ struct NelderMeadOptions {
   double convergence = 0.1;
 
   void Visit(OptionVisitor& v);
-  // Throws InputError naming the field, e.g. "sampler.tpe.candidates".
-  void Validate() const;
 };
 
 // Downhill simplex (Nelder and Mead 1965) with the strategy of Ayadi et al. 6.1.2: the variables

@@ -13,7 +13,6 @@
 #include <pagmo/problem.hpp>
 
 #include "optim/batch_search.h"
-#include "optim/require.h"
 #include "optim/sampler_plugin.h"
 #include "optim/sobol.h"
 
@@ -127,37 +126,20 @@ Batch BestOf(const Batch& batch, std::size_t count) {
 }  // namespace
 
 void CmaEsOptions::Visit(OptionVisitor& v) {
-  v.Field("population", population);
-  v.Field("sigma", sigma);
-  v.Field("ftol", ftol);
-  v.Field("xtol", xtol);
-}
-
-void CmaEsOptions::Validate() const {
-  Require(population >= 0, "cmaes.population", population, ">= 0");
-  Require(sigma > 0.0 && sigma <= 1.0, "cmaes.sigma", sigma, "a fraction of the range in (0, 1]");
-  Require(ftol >= 0.0, "cmaes.ftol", ftol, ">= 0");
-  Require(xtol >= 0.0, "cmaes.xtol", xtol, ">= 0");
+  v.Field("population", population, NotNegative());
+  v.Field("sigma", sigma, LeftOpen(0.0, 1.0));
+  v.Field("ftol", ftol, NotNegative());
+  v.Field("xtol", xtol, NotNegative());
 }
 
 void DifferentialEvolutionOptions::Visit(OptionVisitor& v) {
-  v.Field("population", population);
-  v.Field("weight", weight);
-  v.Field("crossover", crossover);
-  v.Field("first_points", first_points);
-  v.Field("variant", variant);
-  v.Field("ftol", ftol);
-  v.Field("xtol", xtol);
-}
-
-void DifferentialEvolutionOptions::Validate() const {
-  Require(population >= 0, "de.population", population, ">= 0");
-  Require(weight > 0.0 && weight <= 1.0, "de.weight", weight, "a value in (0, 1]");
-  Require(crossover >= 0.0 && crossover <= 1.0, "de.crossover", crossover, "a value in [0, 1]");
-  Require(variant >= 1 && variant <= 10, "de.variant", variant, "1 ... 10");
-  Require(first_points >= 0, "de.first_points", first_points, ">= 0");
-  Require(ftol >= 0.0, "de.ftol", ftol, ">= 0");
-  Require(xtol >= 0.0, "de.xtol", xtol, ">= 0");
+  v.Field("population", population, NotNegative());
+  v.Field("weight", weight, LeftOpen(0.0, 1.0));
+  v.Field("crossover", crossover, Closed(0.0, 1.0));
+  v.Field("first_points", first_points, NotNegative());
+  v.Field("variant", variant, Closed(1, 10));
+  v.Field("ftol", ftol, NotNegative());
+  v.Field("xtol", xtol, NotNegative());
 }
 
 SearchRoutine CmaEs(StrategyContext context, CmaEsOptions options) {

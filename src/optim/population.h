@@ -17,8 +17,6 @@ struct CmaEsOptions {
   double xtol = 1e-5;
 
   void Visit(OptionVisitor& v);
-  // Throws InputError naming the field, e.g. "sampler.tpe.candidates".
-  void Validate() const;
 };
 
 // Differential evolution.
@@ -37,8 +35,6 @@ struct DifferentialEvolutionOptions {
   double xtol = 1e-3;
 
   void Visit(OptionVisitor& v);
-  // Throws InputError naming the field, e.g. "sampler.tpe.candidates".
-  void Validate() const;
 };
 
 // CMA-ES (Hansen and Ostermeier 2001) by pagmo2, with restarts of doubled population (Auger and

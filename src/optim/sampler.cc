@@ -149,7 +149,7 @@ bool Sampler::Ended() const { return strategy_->Ended(); }
 std::unique_ptr<Sampler> MakeSampler(const SamplerOptions& options,
                                      const SearchProblem& problem,
                                      std::uint64_t seed) {
-  options.Validate();
+  CheckOptions(options, "sampler");
   problem.box.Validate();
   if (!problem.start.empty() && !problem.box.Contains(problem.start)) {
     throw InputError("", "search.start", Text(problem.start), "a point of the box");

@@ -10,13 +10,8 @@ SamplerOptions::SamplerOptions() {
 }
 
 void SamplerOptions::Visit(OptionVisitor& v) {
-  v.Field("name", name);
+  v.Field("name", name, OneOf{SamplerNames()});
   groups.Visit(v);
-}
-
-void SamplerOptions::Validate() const {
-  FindSampler(name);
-  groups.Validate();
 }
 
 }  // namespace ridgeline

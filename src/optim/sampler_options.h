@@ -19,8 +19,6 @@ struct SamplerOptions {
 
   SamplerOptions();
   void Visit(OptionVisitor& v);
-  // Throws InputError naming the field, e.g. "sampler.tpe.candidates".
-  void Validate() const;
 };
 
 }  // namespace ridgeline

@@ -20,12 +20,6 @@ std::string Interval(const Parameter& parameter) {
 
 }  // namespace
 
-std::size_t SearchBox::FreeCount() const {
-  return std::count_if(parameters.begin(), parameters.end(), [](const Parameter& parameter) {
-    return !parameter.Fixed();
-  });
-}
-
 bool SearchBox::Contains(std::span<const double> values) const {
   if (values.size() != parameters.size()) return false;
   for (std::size_t i = 0; i < values.size(); ++i) {

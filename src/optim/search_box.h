@@ -27,8 +27,6 @@ struct SearchBox {
   std::vector<Parameter> parameters;
 
   std::size_t Size() const { return parameters.size(); }
-  // Number of parameters that are not fixed.
-  std::size_t FreeCount() const;
   // True if there is one finite value per parameter and each is within its closed interval.
   bool Contains(std::span<const double> values) const;
   // Shortest signed way from `from` to `to` in parameter `index`, across the seam if periodic.

@@ -7,7 +7,6 @@
 #include <memory>
 #include <numeric>
 
-#include "optim/require.h"
 #include "optim/sampler_plugin.h"
 
 namespace ridgeline {
@@ -30,28 +29,14 @@ std::size_t BestRatio(const std::vector<double>& good, const std::vector<double>
 }  // namespace
 
 void TpeOptions::Visit(OptionVisitor& v) {
-  v.Field("startup_trials", startup_trials);
-  v.Field("candidates", candidates);
-  v.Field("good_fraction", good_fraction);
-  v.Field("good_max", good_max);
-  v.Field("prior_weight", prior_weight);
+  v.Field("startup_trials", startup_trials, AtLeast(1));
+  v.Field("candidates", candidates, AtLeast(1));
+  v.Field("good_fraction", good_fraction, Open(0.0, 1.0));
+  v.Field("good_max", good_max, AtLeast(1));
+  v.Field("prior_weight", prior_weight, Open(0.0, 1e6));
   v.Field("magic_clip", magic_clip);
   v.Field("consider_endpoints", consider_endpoints);
   v.Field("divide_by_deviation", divide_by_deviation);
-}
-
-void TpeOptions::Validate() const {
-  Require(startup_trials >= 1, "tpe.startup_trials", startup_trials, ">= 1");
-  Require(candidates >= 1, "tpe.candidates", candidates, ">= 1");
-  Require(good_fraction > 0.0 && good_fraction < 1.0,
-          "tpe.good_fraction",
-          good_fraction,
-          "a value in (0, 1)");
-  Require(good_max >= 1, "tpe.good_max", good_max, ">= 1");
-  Require(prior_weight > 0.0 && prior_weight < 1e6,
-          "tpe.prior_weight",
-          prior_weight,
-          "a value in (0, 1e6)");
 }
 
 std::vector<double> TpeWeights(std::size_t n) {

@@ -28,8 +28,6 @@ struct TpeOptions {
   bool divide_by_deviation = false;
 
   void Visit(OptionVisitor& v);
-  // Throws InputError naming the field, e.g. "sampler.tpe.candidates".
-  void Validate() const;
 };
 
 enum class TpeModel {

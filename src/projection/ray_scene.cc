@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "projection/ray_scene.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
+#include <vector>
+
+#include "projection/embree_scene.h"
 
 namespace ridgeline {
 namespace {
@@ -16,40 +15,6 @@ namespace {
 constexpr unsigned kModelGeometry = 0;
 constexpr unsigned kTerrainGeometry = 1;
 constexpr int kPacket = 8;
-
-bool CountMemory(void* counter, ssize_t bytes, bool) {
-  static_cast<std::atomic<std::int64_t>*>(counter)->fetch_add(bytes);
-  return true;
-}
-
-void AttachMesh(RTCDevice device,
-                RTCScene scene,
-                unsigned id,
-                std::size_t vertex_count,
-                std::size_t triangle_count,
-                const auto& vertex,
-                const auto& triangle) {
-  if (triangle_count == 0) return;
-  const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* const vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertex_count));
-  for (std::size_t i = 0; i < vertex_count; ++i) {
-    Eigen::Map<Eigen::Vector3f>(vertices + 3 * i) = vertex(i);
-  }
-  auto* const indices =
-      static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(geometry,
-                                                          RTC_BUFFER_TYPE_INDEX,
-                                                          0,
-                                                          RTC_FORMAT_UINT3,
-                                                          3 * sizeof(std::uint32_t),
-                                                          triangle_count));
-  for (std::size_t i = 0; i < triangle_count; ++i) {
-    for (int k = 0; k < 3; ++k) indices[3 * i + k] = triangle(i)[k];
-  }
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(scene, geometry, id);
-  rtcReleaseGeometry(geometry);
-}
 
 RTCRayHit8 RaysFrom(const Eigen::Vector3f& origin) {
   RTCRayHit8 rays{};
@@ -75,17 +40,7 @@ void SetRay(RTCRayHit8& rays, std::size_t k, const Eigen::Vector3f& direction) {
 
 struct RayScene::Impl {
   std::vector<std::uint32_t> surface_of_triangle;
-  std::atomic<std::int64_t> bytes{0};
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
-
-  ~Impl() {
-    if (scene != nullptr) rtcReleaseScene(scene);
-    if (device != nullptr) {
-      rtcSetDeviceMemoryMonitorFunction(device, nullptr, nullptr);
-      rtcReleaseDevice(device);
-    }
-  }
+  EmbreeScene embree{RTC_SCENE_FLAG_ROBUST};
 
   std::uint32_t Surface(unsigned geometry, unsigned primitive) const {
     return geometry == kTerrainGeometry ? kTerrainSurface : surface_of_triangle[primitive];
@@ -94,28 +49,19 @@ struct RayScene::Impl {
 
 RayScene::RayScene(const CityModel& model, const TerrainMesh& terrain)
     : impl_(std::make_unique<Impl>()) {
-  impl_->device = rtcNewDevice("threads=1");
-  if (impl_->device == nullptr) throw std::runtime_error("Embree cannot be started");
-  rtcSetDeviceMemoryMonitorFunction(impl_->device, CountMemory, &impl_->bytes);
-  impl_->scene = rtcNewScene(impl_->device);
-  rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
-  AttachMesh(
-      impl_->device,
-      impl_->scene,
+  impl_->embree.AddMesh(
       kModelGeometry,
       model.vertices.size(),
       model.triangles.size(),
       [&](std::size_t i) -> Eigen::Vector3f { return model.vertices[i].cast<float>(); },
       [&](std::size_t i) { return model.triangles[i].vertices; });
-  AttachMesh(
-      impl_->device,
-      impl_->scene,
+  impl_->embree.AddMesh(
       kTerrainGeometry,
       terrain.vertices.size(),
       terrain.triangles.size(),
       [&](std::size_t i) { return terrain.vertices[i]; },
       [&](std::size_t i) { return terrain.triangles[i]; });
-  rtcCommitScene(impl_->scene);
+  impl_->embree.Commit();
   impl_->surface_of_triangle.reserve(model.triangles.size());
   for (const Triangle& triangle : model.triangles) {
     impl_->surface_of_triangle.push_back(triangle.surface);
@@ -124,25 +70,17 @@ RayScene::RayScene(const CityModel& model, const TerrainMesh& terrain)
 
 RayScene::~RayScene() = default;
 
-std::size_t RayScene::memory_bytes() const { return static_cast<std::size_t>(impl_->bytes); }
+std::size_t RayScene::memory_bytes() const { return impl_->embree.memory_bytes(); }
 
 std::optional<RayHit> RayScene::Cast(const Eigen::Vector3f& from,
                                      const Eigen::Vector3f& direction,
                                      float nearest) const {
   RTCRayHit ray{};
-  ray.ray.org_x = from.x();
-  ray.ray.org_y = from.y();
-  ray.ray.org_z = from.z();
-  ray.ray.dir_x = direction.x();
-  ray.ray.dir_y = direction.y();
-  ray.ray.dir_z = direction.z();
-  ray.ray.tnear = nearest;
-  ray.ray.tfar = std::numeric_limits<float>::infinity();
-  ray.ray.mask = ~0u;
+  ray.ray = RayAlong(from, direction, nearest, std::numeric_limits<float>::infinity());
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  rtcIntersect1(impl_->scene, &context, &ray);
+  rtcIntersect1(impl_->embree.scene(), &context, &ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   return RayHit{ray.ray.tfar,
                 impl_->Surface(ray.hit.geomID, ray.hit.primID),
@@ -163,7 +101,7 @@ void RayScene::CastMany(const Eigen::Vector3f& from,
       valid[k] = k < count ? -1 : 0;
       SetRay(rays, k, directions[first + std::min(k, count - 1)]);
     }
-    rtcIntersect8(valid.data(), impl_->scene, &context, &rays);
+    rtcIntersect8(valid.data(), impl_->embree.scene(), &context, &rays);
     for (std::size_t k = 0; k < count; ++k) {
       const bool is_hit = rays.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID;
       surfaces[first + k] =
@@ -200,7 +138,7 @@ ViewBuffers RayScene::Render(const PinholeCamera& camera,
         SetRay(rays, static_cast<std::size_t>(k), row_start + static_cast<float>(x + k) * step_x);
         valid[k] = x + k < camera.width ? -1 : 0;
       }
-      rtcIntersect8(valid.data(), impl_->scene, &context, &rays);
+      rtcIntersect8(valid.data(), impl_->embree.scene(), &context, &rays);
       for (int k = 0; k < kPacket && x + k < camera.width; ++k) {
         if (rays.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) continue;
         buffers.depth.at<float>(y, x + k) = rays.ray.tfar[k];

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string>
 
-#include "base/error.h"
 #include "projection/beside.h"
 #include "projection/edge_set.h"
 #include "projection/horizon.h"
@@ -19,11 +18,6 @@ namespace ridgeline {
 namespace {
 
 constexpr double kMilli = 1e-3;
-
-void Require(bool ok, const std::string& field, double value, const std::string& expected) {
-  if (ok) return;
-  throw InputError("", "projection." + field, std::to_string(value), expected);
-}
 
 float AngleBetween(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -42,18 +36,6 @@ Workspace& ThreadWorkspace() {
 }
 
 }  // namespace
-
-void ProjectionOptions::Validate() const {
-  Require(max_distance_m > 0.0, "max_distance_m", max_distance_m, "> 0");
-  Require(min_piece_mrad >= 0.0, "min_piece_mrad", min_piece_mrad, ">= 0");
-  Require(skyline_step_mrad >= 0.01 && skyline_step_mrad <= 1000.0,
-          "skyline_step_mrad",
-          skyline_step_mrad,
-          "[0.01, 1000]");
-  Require(surface_tolerance_m >= 0.0, "surface_tolerance_m", surface_tolerance_m, ">= 0");
-  Require(terrain_tolerance_m >= 0.0, "terrain_tolerance_m", terrain_tolerance_m, ">= 0");
-  Require(terrain_error_m >= 0.0, "terrain_error_m", terrain_error_m, ">= 0");
-}
 
 struct Scene::Impl {
   Impl(const CityModel& city,
@@ -85,7 +67,7 @@ struct Scene::Impl {
 };
 
 Scene::Scene(const CityModel& model, const HeightGrid* dtm, const ProjectionOptions& options) {
-  options.Validate();
+  CheckOptions(options, "projection");
   const TerrainMesh terrain =
       dtm == nullptr ? TerrainMesh{} : MeshTerrain(*dtm, options.terrain_error_m);
   impl_ = std::make_unique<Impl>(model, terrain, FindTriangleEdges(model), options);

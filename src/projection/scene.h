@@ -34,15 +34,13 @@ struct ProjectionOptions {
   double terrain_error_m = 0.1;
 
   void Visit(OptionVisitor& v) {
-    v.Field("max_distance_m", max_distance_m);
-    v.Field("min_piece_mrad", min_piece_mrad);
-    v.Field("skyline_step_mrad", skyline_step_mrad);
-    v.Field("surface_tolerance_m", surface_tolerance_m);
-    v.Field("terrain_tolerance_m", terrain_tolerance_m);
-    v.Field("terrain_error_m", terrain_error_m);
+    v.Field("max_distance_m", max_distance_m, Positive());
+    v.Field("min_piece_mrad", min_piece_mrad, NotNegative());
+    v.Field("skyline_step_mrad", skyline_step_mrad, Closed(0.01, 1000.0));
+    v.Field("surface_tolerance_m", surface_tolerance_m, NotNegative());
+    v.Field("terrain_tolerance_m", terrain_tolerance_m, NotNegative());
+    v.Field("terrain_error_m", terrain_error_m, NotNegative());
   }
-  // Throws InputError naming the field, e.g. "projection.max_distance_m".
-  void Validate() const;
 };
 
 // The model and the terrain around it. Thread-safe after construction.

@@ -7,16 +7,10 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "base/error.h"
 #include "projection/rasterizer.h"
 
 namespace ridgeline {
 namespace {
-
-void Require(bool ok, const std::string& field, double value, const std::string& expected) {
-  if (ok) return;
-  throw InputError("", "zbuffer_hough." + field, std::to_string(value), expected);
-}
 
 cv::Mat GrayFromDepth(const cv::Mat& depth, double white_m) {
   cv::Mat gray(depth.size(), CV_8U);
@@ -41,18 +35,6 @@ float NearestDepthAround(const cv::Mat& depth, const cv::Point2f& point) {
 }
 
 }  // namespace
-
-void ZbufferHoughOptions::Validate() const {
-  Require(radius_m > 0.0, "radius_m", radius_m, "> 0");
-  Require(white_m > 0.0, "white_m", white_m, "> 0");
-  Require(canny_low >= 0.0, "canny_low", canny_low, ">= 0");
-  Require(canny_high >= canny_low, "canny_high", canny_high, ">= canny_low");
-  Require(rho_px > 0.0, "rho_px", rho_px, "> 0");
-  Require(theta_deg > 0.0 && theta_deg <= 90.0, "theta_deg", theta_deg, "(0, 90]");
-  Require(votes > 0, "votes", votes, "> 0");
-  Require(min_length_px >= 0.0, "min_length_px", min_length_px, ">= 0");
-  Require(max_gap_px >= 0.0, "max_gap_px", max_gap_px, ">= 0");
-}
 
 std::vector<ProjectedSegment> ZbufferHoughSegments(const CityModel& model,
                                                    const PinholeCamera& camera,

@@ -32,18 +32,16 @@ struct ZbufferHoughOptions {
   double max_gap_px = 4.0;
 
   void Visit(OptionVisitor& v) {
-    v.Field("radius_m", radius_m);
-    v.Field("white_m", white_m);
-    v.Field("canny_low", canny_low);
-    v.Field("canny_high", canny_high);
-    v.Field("rho_px", rho_px);
-    v.Field("theta_deg", theta_deg);
-    v.Field("votes", votes);
-    v.Field("min_length_px", min_length_px);
-    v.Field("max_gap_px", max_gap_px);
+    v.Field("radius_m", radius_m, Positive());
+    v.Field("white_m", white_m, Positive());
+    v.Field("canny_low", canny_low, NotNegative());
+    v.Field("canny_high", canny_high, AtLeast(canny_low, "canny_low"));
+    v.Field("rho_px", rho_px, Positive());
+    v.Field("theta_deg", theta_deg, LeftOpen(0.0, 90.0));
+    v.Field("votes", votes, Positive());
+    v.Field("min_length_px", min_length_px, NotNegative());
+    v.Field("max_gap_px", max_gap_px, NotNegative());
   }
-  // Throws InputError naming the field, e.g. "zbuffer_hough.votes".
-  void Validate() const;
 };
 
 // Model lines as the paper finds them: the buildings' surfaces rasterized into a z-buffer, its

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "base/error.h"
+#include "camera/local_frame.h"
 #include "eval/bench.h"
 #include "eval/metrics.h"
 #include "localize/pose_scorer.h"
@@ -74,8 +75,8 @@ class Compared {
                             localizer_.options().score.evidence.surface_step_deg);
     SearchOptions search = localizer_.options().search;
     search.evaluations = iterations;
-    Pose local_truth = truth;
-    local_truth.center_in_world -= localizer_.scene().model().origin_in_world;
+    const Pose local_truth =
+        LocalFrame{localizer_.scene().model().origin_in_world}.FromWorld(truth);
     const double truth_deg = ViewAnglesOf(truth.cam_from_world).heading_deg;
     std::vector<LoeperSample> samples;
     for (const Trial& trial : SampleSearch(scorer, search, seed, threads).trace.trials) {

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "camera/local_frame.h"
 #include "city/crs.h"
 #include "input/prior_pose.h"
 #include "report/hillshade.h"
@@ -52,9 +53,8 @@ ReportPose PoseOf(const Pose& pose) {
   return {pose.center_in_world, angles.heading_deg, angles.pitch_deg, angles.roll_deg};
 }
 
-Pose LocalOf(Pose pose, const Localizer& localizer) {
-  pose.center_in_world -= localizer.scene().model().origin_in_world;
-  return pose;
+Pose LocalOf(const Pose& pose, const Localizer& localizer) {
+  return LocalFrame{localizer.scene().model().origin_in_world}.FromWorld(pose);
 }
 
 // The prior of a run; off the terrain, where nothing is searched, at the height of the model's

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 
+#include "camera/local_frame.h"
 #include "eval/binomial.h"
 #include "report/bench_report.h"
 #include "report/overlay_layers.h"
@@ -125,8 +126,7 @@ std::vector<OverlayLayer> LayersAt(const std::optional<Pose>& pose,
                                    const std::string& name,
                                    const Rgb& color) {
   if (!pose) return {};
-  Pose local = *pose;
-  local.center_in_world -= localizer.scene().model().origin_in_world;
+  const Pose local = LocalFrame{localizer.scene().model().origin_in_world}.FromWorld(*pose);
   OverlayLayer layer = PlainEdgeLayer(localizer.scene(), camera, local, "model at " + name);
   layer.color = color;
   layer.width_px = 1.6;

@@ -7,10 +7,10 @@
 #include <numbers>
 #include <utility>
 
+#include "base/angle.h"
+
 namespace ridgeline {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 // The directions a camera sees, with a margin; all around when it looks steeply up or down.
 Sector SectorOf(const PinholeCamera& camera, const Pose& cam_from_local) {
@@ -130,17 +130,6 @@ OverlayLayer PlainEdgeLayer(const Scene& scene,
     for (auto& line : layer.lines) plain.lines.push_back(std::move(line));
   }
   return plain;
-}
-
-OverlayLayer SegmentLayer(std::span<const LineSegment> segments) {
-  OverlayLayer layer;
-  layer.name = "line found in the picture";
-  layer.color = {255, 240, 60};
-  layer.width_px = 1.0;
-  layer.opacity = 0.8;
-  layer.casing = false;
-  for (const LineSegment& segment : segments) layer.lines.push_back({segment.a, segment.b});
-  return layer;
 }
 
 OverlayLayer SkylineLayer(const Skyline& skyline) {

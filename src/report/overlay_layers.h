@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "camera/intrinsics.h"
 #include "camera/pose.h"
-#include "lines/line_segment.h"
 #include "projection/scene.h"
 #include "report/overlay.h"
 #include "score/edge_kind.h"
@@ -36,9 +34,6 @@ OverlayLayer PlainEdgeLayer(const Scene& scene,
                             const PinholeCamera& camera,
                             const Pose& cam_from_local,
                             std::string name);
-
-// Segments found in the picture.
-OverlayLayer SegmentLayer(std::span<const LineSegment> segments);
 
 // The skyline found in the picture, where it is known.
 OverlayLayer SkylineLayer(const Skyline& skyline);

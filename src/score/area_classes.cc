@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "score/area_classes.h"
 
-#include <array>
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <set>
 
 #include "base/error.h"
 #include "skyline/sky_likelihood.h"
@@ -33,48 +33,44 @@ cv::Mat OneChannel(const cv::Mat& picture, const std::string& file) {
   return channels.front();
 }
 
+// The first value that is not whole or there twice; empty: none.
+std::string BadValue(const std::vector<std::vector<double>>& lists) {
+  std::set<double> used;
+  for (const std::vector<double>& list : lists) {
+    for (const double value : list) {
+      if (value != std::floor(value)) return std::to_string(value);
+      if (!used.insert(value).second) return std::to_string(static_cast<int>(value)) + " twice";
+    }
+  }
+  return "";
+}
+
 }  // namespace
 
 void AreaOptions::Visit(OptionVisitor& v) {
-  v.Field("source", source);
-  v.Field("parts", parts);
+  constexpr NumberRange kByte = Closed(0.0, 255.0);
+  const bool of_file = source == "file";
+  const bool of_parts = parts == "roof_wall";
+  constexpr char kValuesOfParts[] = "the class image's values of roofs and walls";
+  v.Field("source", source, OneOf{{"colours", "file"}});
+  v.Field("parts", parts, OneOf{{"building", "roof_wall"}});
+  v.Rule("parts",
+         of_file || !of_parts,
+         "roof_wall with source=" + source,
+         "source=file (by colours, roofs and walls are told apart by the cue facade_colours)");
   v.Field("file", file);
-  v.Field("building", building);
-  v.Field("roof", roof);
-  v.Field("wall", wall);
-  v.Field("sky", sky);
-  v.Field("ground", ground);
-  v.Field("unknown", unknown);
-  v.Field("columns", columns);
-}
-
-void AreaOptions::Validate() const {
-  const auto refuse = [](const char* name, const std::string& found, const char* expected) {
-    throw InputError("", std::string("score.areas.") + name, found, expected);
-  };
-  if (source != "colours" && source != "file") refuse("source", source, "colours or file");
-  if (parts != "building" && parts != "roof_wall") refuse("parts", parts, "building or roof_wall");
-  if (parts == "roof_wall" && source != "file") {
-    refuse("parts",
-           "roof_wall with source=" + source,
-           "source=file (by colours, roofs and walls are told apart by the cue facade_colours)");
-  }
-  if (parts == "roof_wall" && (roof.empty() || wall.empty())) {
-    refuse(roof.empty() ? "roof" : "wall", "no value", "the class image's values of roofs and walls");
-  }
-  if (source == "file" && file.empty()) refuse("file", "nothing", "a class image (PNG)");
-  if (columns < 16 || columns > 1000) refuse("columns", std::to_string(columns), "[16, 1000]");
-  std::array<bool, 256> used{};
-  for (const auto* list : {&building, &roof, &wall, &sky, &ground, &unknown}) {
-    for (const double value : *list) {
-      if (!(value >= 0.0 && value <= 255.0 && value == std::floor(value))) {
-        refuse("building", std::to_string(value), "whole numbers from 0 to 255 in all lists");
-      }
-      bool& is_used = used[static_cast<std::size_t>(value)];
-      if (is_used) refuse("building", std::to_string(value) + " twice", "each value once");
-      is_used = true;
-    }
-  }
+  v.Rule("file", !of_file || !file.empty(), "nothing", "a class image (PNG)");
+  v.Field("building", building, kByte);
+  v.Field("roof", roof, kByte);
+  v.Rule("roof", !of_parts || !roof.empty(), "no value", kValuesOfParts);
+  v.Field("wall", wall, kByte);
+  v.Rule("wall", !of_parts || !wall.empty(), "no value", kValuesOfParts);
+  v.Field("sky", sky, kByte);
+  v.Field("ground", ground, kByte);
+  v.Field("unknown", unknown, kByte);
+  const std::string bad = BadValue({building, roof, wall, sky, ground, unknown});
+  v.Rule("building", bad.empty(), bad, "whole numbers, each once in all lists");
+  v.Field("columns", columns, Closed(16, 1000));
 }
 
 cv::Mat ReadClasses(const std::filesystem::path& path, const PinholeCamera& camera) {

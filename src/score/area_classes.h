@@ -37,8 +37,6 @@ struct AreaOptions {
   int columns = 96;
 
   void Visit(OptionVisitor& v);
-  // Throws InputError naming the field, e.g. "score.areas.source".
-  void Validate() const;
 };
 
 // Class image or mask (8 bit, one channel; of colour pictures with equal channels one is taken) of a

@@ -8,8 +8,6 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "base/error.h"
-
 namespace ridgeline {
 namespace {
 
@@ -35,11 +33,6 @@ std::vector<double> LogRisingFactorials(double a, std::size_t most) {
 }
 
 }  // namespace
-
-void ColourOptions::Validate() const {
-  if (columns >= 8 && columns <= 640) return;
-  throw InputError("", "score.colours.columns", std::to_string(columns), "[8, 640]");
-}
 
 ColourInformation::ColourInformation(const cv::Mat& bgr,
                                      const PinholeCamera& camera,

@@ -19,9 +19,7 @@ struct ColourOptions {
   // Columns of the grid over the picture on which surfaces and colours are compared.
   int columns = 64;
 
-  void Visit(OptionVisitor& v) { v.Field("columns", columns); }
-  // Throws InputError naming the field, e.g. "score.colours.columns".
-  void Validate() const;
+  void Visit(OptionVisitor& v) { v.Field("columns", columns, Closed(8, 640)); }
 };
 
 // How much the surfaces that a pose puts behind the cells of a grid over the picture tell of the

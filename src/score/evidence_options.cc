@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "base/error.h"
 #include "score/cue_table.h"
 
 namespace ridgeline {
@@ -13,19 +12,9 @@ EvidenceOptions::EvidenceOptions() {
 }
 
 void EvidenceOptions::Visit(OptionVisitor& v) {
-  v.Field("work_size_px", work_size_px);
-  v.Field("surface_step_deg", surface_step_deg);
+  v.Field("work_size_px", work_size_px, AtLeast(64));
+  v.Field("surface_step_deg", surface_step_deg, Closed(0.05, 10.0));
   cues.Visit(v);
-}
-
-void EvidenceOptions::Validate() const {
-  if (work_size_px < 64) {
-    throw InputError("", "score.work_size_px", std::to_string(work_size_px), ">= 64");
-  }
-  if (!(surface_step_deg >= 0.05 && surface_step_deg <= 10.0)) {
-    throw InputError("", "score.surface_step_deg", std::to_string(surface_step_deg), "[0.05, 10]");
-  }
-  cues.Validate();
 }
 
 }  // namespace ridgeline

@@ -17,8 +17,6 @@ struct EvidenceOptions {
 
   EvidenceOptions();
   void Visit(OptionVisitor& v);
-  // Throws InputError naming the field, e.g. "score.work_size_px".
-  void Validate() const;
 };
 
 }  // namespace ridgeline

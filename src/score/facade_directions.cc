@@ -7,8 +7,6 @@
 #include <numbers>
 #include <string>
 
-#include "base/error.h"
-
 namespace ridgeline {
 namespace {
 
@@ -52,18 +50,6 @@ simd::Vec3x4 Rotated(const simd::Vec3x4 (&rows)[3], const simd::Vec3x4& v) {
 }
 
 }  // namespace
-
-void FacadeDirectionOptions::Validate() const {
-  if (!(aligned_share > 0.0 && aligned_share < 1.0)) {
-    throw InputError("", "score.facades.aligned_share", std::to_string(aligned_share), "(0, 1)");
-  }
-  if (!(sigma_deg > 0.0)) {
-    throw InputError("", "score.facades.sigma_deg", std::to_string(sigma_deg), "> 0");
-  }
-  if (max_lines < 1) {
-    throw InputError("", "score.facades.max_lines", std::to_string(max_lines), ">= 1");
-  }
-}
 
 FacadeDirections::FacadeDirections(std::span<const LineSegment> segments,
                                    const PinholeCamera& camera,

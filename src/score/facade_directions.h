@@ -25,11 +25,10 @@ struct FacadeDirectionOptions {
   int max_lines = 1000;
 
   void Visit(OptionVisitor& v) {
-    v.Field("aligned_share", aligned_share);
-    v.Field("sigma_deg", sigma_deg);
-    v.Field("max_lines", max_lines);
+    v.Field("aligned_share", aligned_share, Open(0.0, 1.0));
+    v.Field("sigma_deg", sigma_deg, Positive());
+    v.Field("max_lines", max_lines, AtLeast(1));
   }
-  void Validate() const;
 };
 
 // Explains the picture's lines by the surfaces that a pose puts behind them: windows, cornices and

@@ -8,7 +8,6 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "base/error.h"
 #include "lines/line_detector.h"
 #include "score/edge_samples.h"
 #include "score/score_plugin.h"
@@ -22,15 +21,6 @@ constexpr int kLevels = 4096;  // of gradients, up to the picture's largest
 constexpr float kNoise = 0.02f;
 
 }  // namespace
-
-void GradientScoreOptions::Validate() const {
-  const auto require_positive = [](const char* name, double value) {
-    if (value > 0.0) return;
-    throw InputError("", std::string("score.gradient.") + name, std::to_string(value), "> 0");
-  };
-  require_positive("sigma_width", sigma_width);
-  require_positive("spacing_width", spacing_width);
-}
 
 GradientScore::GradientScore(const cv::Mat& picture,
                              const PinholeCamera& camera,

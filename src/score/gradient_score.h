@@ -19,11 +19,9 @@ struct GradientScoreOptions {
   double spacing_width = 0.004;
 
   void Visit(OptionVisitor& v) {
-    v.Field("sigma_width", sigma_width);
-    v.Field("spacing_width", spacing_width);
+    v.Field("sigma_width", sigma_width, Positive());
+    v.Field("spacing_width", spacing_width, Positive());
   }
-  // Throws InputError naming the field, e.g. "score.gradient.sigma_width".
-  void Validate() const;
 };
 
 // Gradient of the picture across the projected edges: at each sample the share of all gradients of

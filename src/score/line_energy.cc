@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
-
 namespace ridgeline {
 namespace {
 
@@ -19,22 +17,6 @@ float UndirectedAngle(const Eigen::Vector2f& d) {
 }
 
 }  // namespace
-
-void LineEnergyOptions::Validate() const {
-  if (!(max_angle_deg > 0.0 && max_angle_deg <= 90.0)) {
-    throw InputError("", "score.line_energy.max_angle_deg", std::to_string(max_angle_deg), "(0, 90]");
-  }
-  if (!(max_distance_width > 0.0)) {
-    throw InputError(
-        "", "score.line_energy.max_distance_width", std::to_string(max_distance_width), "> 0");
-  }
-  if (!(max_distance_px >= 0.0 && std::isfinite(max_distance_px))) {
-    throw InputError("",
-                     "score.line_energy.max_distance_px",
-                     std::to_string(max_distance_px),
-                     ">= 0 (0: by the width)");
-  }
-}
 
 LineEnergy::LineEnergy(std::span<const LineSegment> picture,
                        int width_px,

@@ -22,16 +22,14 @@ struct LineEnergyOptions {
   double max_distance_px = 0.0;
 
   void Visit(OptionVisitor& v) {
-    v.Field("max_angle_deg", max_angle_deg);
-    v.Field("max_distance_width", max_distance_width);
-    v.Field("max_distance_px", max_distance_px);
+    v.Field("max_angle_deg", max_angle_deg, LeftOpen(0.0, 90.0));
+    v.Field("max_distance_width", max_distance_width, Positive());
+    v.Field("max_distance_px", max_distance_px, NotNegative());
   }
   // [px] of a picture of `width_px`.
   double DistanceLimitPx(int width_px) const {
     return max_distance_px > 0.0 ? max_distance_px : max_distance_width * width_px;
   }
-  // Throws InputError naming the field.
-  void Validate() const;
 };
 
 // Energy of Loeper et al., section 3.1.3: image segment i corresponds to model segment j if their

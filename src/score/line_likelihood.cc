@@ -6,8 +6,6 @@
 #include <limits>
 #include <string>
 
-#include "base/error.h"
-
 namespace ridgeline {
 namespace {
 
@@ -31,6 +29,17 @@ OwnLine OwnLineAt(double distance_px, double sigma_px) {
 
 }  // namespace
 
+void LineLikelihoodOptions::Visit(OptionVisitor& v) {
+  v.Field("seen_share", seen_share, Open(0.0, 1.0));
+  v.Rule("seen_share",
+         seen_share.size() == kEdgeKinds,
+         std::to_string(seen_share.size()),
+         "one number per kind of edge (5)");
+  v.Field("sigma_width", sigma_width, Positive());
+  v.Field("sigma_model_m", sigma_model_m, NotNegative());
+  v.Field("spacing_width", spacing_width, Positive());
+}
+
 double LineLogRatio(double distance_px,
                     bool is_beyond,
                     double sigma_px,
@@ -48,21 +57,6 @@ double LineLikelihood::SigmaOfLevel(int level) {
 int LineLikelihood::LevelOfSigma(double sigma_px) {
   const double level = std::log(sigma_px / kSmallestSigmaPx) / std::log(kSigmaRatio);
   return std::clamp(static_cast<int>(level + 0.5), 0, kSigmaLevels - 1);
-}
-
-void LineLikelihoodOptions::Validate() const {
-  const auto fail = [](const std::string& name, double value, const std::string& expected) {
-    throw InputError("", "score.lines." + name, std::to_string(value), expected);
-  };
-  if (seen_share.size() != kEdgeKinds) {
-    fail("seen_share", static_cast<double>(seen_share.size()), "one number per kind of edge (5)");
-  }
-  for (const double share : seen_share) {
-    if (!(share > 0.0 && share < 1.0)) fail("seen_share", share, "(0, 1)");
-  }
-  if (!(sigma_width > 0.0)) fail("sigma_width", sigma_width, "> 0");
-  if (!(sigma_model_m >= 0.0)) fail("sigma_model_m", sigma_model_m, ">= 0");
-  if (!(spacing_width > 0.0)) fail("spacing_width", spacing_width, "> 0");
 }
 
 LineLikelihood::LineLikelihood(const OrientedDistanceField& field,

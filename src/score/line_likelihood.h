@@ -23,13 +23,7 @@ struct LineLikelihoodOptions {
   // Spacing of samples along an edge [share of the picture's width].
   double spacing_width = 0.008;
 
-  void Visit(OptionVisitor& v) {
-    v.Field("seen_share", seen_share);
-    v.Field("sigma_width", sigma_width);
-    v.Field("sigma_model_m", sigma_model_m);
-    v.Field("spacing_width", spacing_width);
-  }
-  void Validate() const;
+  void Visit(OptionVisitor& v);
 };
 
 // Log likelihood ratio of one sample of an edge whose nearest line is at a distance, or beyond it,

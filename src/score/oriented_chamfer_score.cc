@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string>
 
-#include "base/error.h"
 #include "score/edge_samples.h"
 #include "score/score_plugin.h"
 
@@ -16,17 +15,6 @@ constexpr int kDirections = OrientedDistanceField::kDirections;
 constexpr int kFar = 255;
 
 }  // namespace
-
-void OrientedChamferOptions::Validate() const {
-  const auto require_positive = [](const char* name, double value) {
-    if (value > 0.0) return;
-    throw InputError(
-        "", std::string("score.oriented_chamfer.") + name, std::to_string(value), "> 0");
-  };
-  require_positive("max_distance_width", max_distance_width);
-  require_positive("per_degree_width", per_degree_width);
-  require_positive("spacing_width", spacing_width);
-}
 
 OrientedChamferScore::OrientedChamferScore(const OrientedDistanceField& field,
                                            const PinholeCamera& camera,

@@ -20,12 +20,10 @@ struct OrientedChamferOptions {
   double spacing_width = 0.008;
 
   void Visit(OptionVisitor& v) {
-    v.Field("max_distance_width", max_distance_width);
-    v.Field("per_degree_width", per_degree_width);
-    v.Field("spacing_width", spacing_width);
+    v.Field("max_distance_width", max_distance_width, Positive());
+    v.Field("per_degree_width", per_degree_width, Positive());
+    v.Field("spacing_width", spacing_width, Positive());
   }
-  // Throws InputError naming the field, e.g. "score.oriented_chamfer.max_distance_width".
-  void Validate() const;
 };
 
 // Directional chamfer distance: a sample of a projected edge costs the least sum of its distance to

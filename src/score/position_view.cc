@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/angle.h"
+
 namespace ridgeline {
 namespace {
 
@@ -64,7 +66,6 @@ PanoramaRange RangeOf(const PinholeCamera& camera,
                       const ViewAngles& center,
                       const ViewAngles& half_ranges,
                       double step) {
-  constexpr double kRadPerDeg = std::numbers::pi / 180.0;
   // The directions furthest out are on the border, unless straight up or down is in the picture.
   constexpr int kSteps = 16;  // per side
   std::vector<Eigen::Vector3d> border;

@@ -1,20 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "score/ray_line_energy_score.h"
 
-#include <string>
-
-#include "base/error.h"
 #include "score/score_plugin.h"
 
 namespace ridgeline {
-
-void RayEdgeOptions::Validate() const {
-  const auto require = [](const char* name, double value, bool ok, const char* expected) {
-    if (!ok) throw InputError("", std::string("score.rays.") + name, std::to_string(value), expected);
-  };
-  require("step_mrad", step_mrad, step_mrad >= 0.1 && step_mrad <= 1000.0, "[0.1, 1000]");
-  require("max_distance_m", max_distance_m, max_distance_m > 0.0, "> 0");
-}
 
 RayLineEnergyScore::RayLineEnergyScore(std::span<const LineSegment> segments,
                                        const PinholeCamera& camera,

@@ -20,11 +20,9 @@ struct RayEdgeOptions {
   double max_distance_m = 200.0;
 
   void Visit(OptionVisitor& v) {
-    v.Field("step_mrad", step_mrad);
-    v.Field("max_distance_m", max_distance_m);
+    v.Field("step_mrad", step_mrad, Closed(0.1, 1000.0));
+    v.Field("max_distance_m", max_distance_m, Positive());
   }
-  // Throws InputError naming the field, e.g. "score.rays.step_mrad".
-  void Validate() const;
 };
 
 // The energy of Loeper et al. on edges whose visibility is sampled by rays: a cross-check of

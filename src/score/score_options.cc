@@ -2,7 +2,6 @@
 #include "score/score_options.h"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "base/error.h"
@@ -19,28 +18,17 @@ ScoreOptions::ScoreOptions() {
 }
 
 void ScoreOptions::Visit(OptionVisitor& v) {
-  v.Field("name", name);
+  v.Field("name", name, OneOf{ScoreNames()});
   v.Group("weights", [this](OptionVisitor& g) {
-    for (const std::string& cue : CueNames()) g.Field(cue, weights[cue]);
+    const std::vector<std::string> cues = CueNames();
+    for (const std::string& cue : cues) g.Field(cue, weights[cue], NotNegative());
+    for (const auto& [cue, weight] : weights) {
+      const bool is_known = std::find(cues.begin(), cues.end(), cue) != cues.end();
+      g.Rule(cue, is_known, "an unknown cue", "e.g. \"" + NearestName(cue, cues) + "\"");
+    }
   });
   v.Group("evidence", [this](OptionVisitor& g) { evidence.Visit(g); });
   groups.Visit(v);
-}
-
-void ScoreOptions::Validate() const {
-  FindScore(name);
-  const std::vector<std::string> cues = CueNames();
-  for (const auto& [cue, weight] : weights) {
-    const std::string field = "score.weights." + cue;
-    if (std::find(cues.begin(), cues.end(), cue) == cues.end()) {
-      throw InputError("", field, "an unknown cue", "e.g. \"" + NearestName(cue, cues) + "\"");
-    }
-    if (!(weight >= 0.0 && std::isfinite(weight))) {
-      throw InputError("", field, std::to_string(weight), "a number >= 0");
-    }
-  }
-  evidence.Validate();
-  groups.Validate();
 }
 
 }  // namespace ridgeline

@@ -22,8 +22,6 @@ struct ScoreOptions {
 
   ScoreOptions();
   void Visit(OptionVisitor& v);
-  // Throws InputError naming the field, e.g. "score.weights.sky".
-  void Validate() const;
 };
 
 }  // namespace ridgeline

@@ -5,22 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "base/error.h"
-
 namespace ridgeline {
-
-void SkyTableOptions::Validate() const {
-  const auto check = [](const char* name, double value, double lower, double upper) {
-    if (!(value >= lower && value <= upper)) {
-      throw InputError("", std::string("score.sky.") + name, std::to_string(value),
-                       "[" + std::to_string(lower) + ", " + std::to_string(upper) + "]");
-    }
-  };
-  check("pixel_weight", pixel_weight, 0.0, 10.0);
-  check("deviation", deviation, 1e-4, 1.0);
-  check("obstructed_share", obstructed_share, 0.0, 0.9);
-  check("missing_share", missing_share, 0.001, 0.09);
-}
 
 SkyTable::SkyTable(const cv::Mat& log_odds, const SkyTableOptions& options)
     : columns_(log_odds.cols),

@@ -20,12 +20,11 @@ struct SkyTableOptions {
   double missing_share = 0.03;
 
   void Visit(OptionVisitor& v) {
-    v.Field("pixel_weight", pixel_weight);
-    v.Field("deviation", deviation);
-    v.Field("obstructed_share", obstructed_share);
-    v.Field("missing_share", missing_share);
+    v.Field("pixel_weight", pixel_weight, Closed(0.0, 10.0));
+    v.Field("deviation", deviation, Closed(1e-4, 1.0));
+    v.Field("obstructed_share", obstructed_share, Closed(0.0, 0.9));
+    v.Field("missing_share", missing_share, Closed(0.001, 0.09));
   }
-  void Validate() const;
 };
 
 // For each column of a picture and each height of the model's skyline in it, the log likelihood

@@ -6,14 +6,11 @@
 #include <cmath>
 #include <string>
 
-#include "base/error.h"
 #include "score/sky_score.h"
 #include "skyline/clean_skyline.h"
 
 namespace ridgeline {
 namespace {
-
-constexpr int kMaxColumns = 640;
 
 SkylineUse UseOf(const Skyline& real, double min_known_share) {
   std::size_t seen = 0, known = 0;
@@ -28,23 +25,6 @@ SkylineUse UseOf(const Skyline& real, double min_known_share) {
 }
 
 }  // namespace
-
-void SkylineL1Options::Validate() const {
-  const auto require = [](bool ok, const char* name, double value, const char* expected) {
-    if (!ok) {
-      throw InputError("", std::string("skyline_l1.") + name, std::to_string(value), expected);
-    }
-  };
-  require(precision_px >= 0.0, "precision_px", precision_px, "at least 0");
-  require(half_energy_px > 0.0, "half_energy_px", half_energy_px, "more than 0");
-  require(max_deviation_px > 0.0, "max_deviation_px", max_deviation_px, "more than 0");
-  require(max_obstructed_px > 0.0, "max_obstructed_px", max_obstructed_px, "more than 0");
-  require(columns >= 8 && columns <= kMaxColumns, "columns", columns, "8 to 640");
-  require(min_known_share >= 0.0 && min_known_share <= 1.0,
-          "min_known_share",
-          min_known_share,
-          "[0, 1]");
-}
 
 const char* ReasonOf(SkylineUse use) {
   switch (use) {
@@ -99,7 +79,7 @@ SkylineL1::SkylineL1(const Skyline& real,
 
 double SkylineL1::Distance(std::span<const Eigen::Vector3f> directions,
                            const Eigen::Matrix3f& cam_from_world) const {
-  std::array<float, kMaxColumns> rows;
+  std::array<float, SkylineL1Options::kMaxColumns> rows;
   const std::span<float> used(rows.data(), rows_.size());
   SkylineRows(directions, camera_, cam_from_world, used);
   return DistanceOfRows(used);

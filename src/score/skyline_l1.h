@@ -18,6 +18,7 @@ namespace ridgeline {
 inline constexpr double kSkylineReferenceWidthPx = 640.0;
 
 struct SkylineL1Options {
+  static constexpr int kMaxColumns = 640;
   // Precision of the clean-up of the real skyline (Algorithm 1, Douglas-Peucker) [px at 640]; 0:
   // none.
   double precision_px = 2.0;
@@ -37,16 +38,14 @@ struct SkylineL1Options {
   double min_known_share = 0.1;
 
   void Visit(OptionVisitor& v) {
-    v.Field("precision_px", precision_px);
-    v.Field("half_energy_px", half_energy_px);
+    v.Field("precision_px", precision_px, NotNegative());
+    v.Field("half_energy_px", half_energy_px, Positive());
     v.Field("robust", robust);
-    v.Field("max_deviation_px", max_deviation_px);
-    v.Field("max_obstructed_px", max_obstructed_px);
-    v.Field("columns", columns);
-    v.Field("min_known_share", min_known_share);
+    v.Field("max_deviation_px", max_deviation_px, Positive());
+    v.Field("max_obstructed_px", max_obstructed_px, Positive());
+    v.Field("columns", columns, Closed(8, kMaxColumns));
+    v.Field("min_known_share", min_known_share, Closed(0.0, 1.0));
   }
-  // Throws InputError naming the field, e.g. "skyline_l1.columns".
-  void Validate() const;
 };
 
 // What a real skyline is worth.

@@ -7,7 +7,6 @@
 #include <numeric>
 #include <string>
 
-#include "base/error.h"
 #include "score/edge_samples.h"
 #include "score/score_plugin.h"
 
@@ -40,17 +39,6 @@ class CellMasks {
 };
 
 }  // namespace
-
-void UnexplainedScoreOptions::Validate() const {
-  const auto require_positive = [](const char* name, double value) {
-    if (value > 0.0) return;
-    throw InputError("", std::string("score.unexplained.") + name, std::to_string(value), "> 0");
-  };
-  require_positive("max_distance_width", max_distance_width);
-  require_positive("max_lines", max_lines);
-  require_positive("outline_width", outline_width);
-  require_positive("spacing_width", spacing_width);
-}
 
 UnexplainedScore::UnexplainedScore(std::span<const LineSegment> segments,
                                    const OrientedDistanceField& field,

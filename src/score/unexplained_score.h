@@ -25,13 +25,11 @@ struct UnexplainedScoreOptions {
   double spacing_width = 0.008;
 
   void Visit(OptionVisitor& v) {
-    v.Field("max_distance_width", max_distance_width);
-    v.Field("max_lines", max_lines);
-    v.Field("outline_width", outline_width);
-    v.Field("spacing_width", spacing_width);
+    v.Field("max_distance_width", max_distance_width, Positive());
+    v.Field("max_lines", max_lines, Positive());
+    v.Field("outline_width", outline_width, Positive());
+    v.Field("spacing_width", spacing_width, Positive());
   }
-  // Throws InputError naming the field, e.g. "score.unexplained.max_lines".
-  void Validate() const;
 };
 
 // What edges and lines leave of each other. E: share of the length of the projected edges with a

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
 #include "skyline/reduce.h"
 
 namespace ridgeline {
@@ -67,20 +66,6 @@ std::vector<int> ShortestPath(const std::vector<int>& rows, int max_gap, double 
 }
 
 }  // namespace
-
-void CannySkylineOptions::Validate() const {
-  const auto require = [](bool ok, const char* name, double value, const char* expected) {
-    if (!ok) {
-      throw InputError("", std::string("skyline.canny.") + name, std::to_string(value), expected);
-    }
-  };
-  require(work_width_px >= 16, "work_width_px", work_width_px, "at least 16");
-  require(low_threshold >= 0.0, "low_threshold", low_threshold, "at least 0");
-  require(
-      high_threshold >= low_threshold, "high_threshold", high_threshold, "at least the low one");
-  require(max_gap_px >= 0, "max_gap_px", max_gap_px, "at least 0");
-  require(gap_cost >= 0.0, "gap_cost", gap_cost, "at least 0");
-}
 
 Skyline ExtractCannySkyline(const cv::Mat& bgr, const CannySkylineOptions& options) {
   const cv::Mat work = ReducedToWidth(bgr, options.work_width_px);

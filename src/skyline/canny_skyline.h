@@ -20,14 +20,12 @@ struct CannySkylineOptions {
   double gap_cost = 3.0;
 
   void Visit(OptionVisitor& v) {
-    v.Field("work_width_px", work_width_px);
-    v.Field("low_threshold", low_threshold);
-    v.Field("high_threshold", high_threshold);
-    v.Field("max_gap_px", max_gap_px);
-    v.Field("gap_cost", gap_cost);
+    v.Field("work_width_px", work_width_px, AtLeast(16));
+    v.Field("low_threshold", low_threshold, NotNegative());
+    v.Field("high_threshold", high_threshold, AtLeast(low_threshold, "low_threshold"));
+    v.Field("max_gap_px", max_gap_px, NotNegative());
+    v.Field("gap_cost", gap_cost, NotNegative());
   }
-  // Throws InputError naming the field, e.g. "skyline.canny.max_gap_px".
-  void Validate() const;
 };
 
 // The skyline of Ayadi et al., section 4: edge pixels (Canny), their upper envelope (the first one

@@ -8,7 +8,6 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "base/error.h"
 #include "skyline/reduce.h"
 #include "skyline/sky_features.h"
 #include "skyline/sky_seeds.h"
@@ -72,16 +71,6 @@ std::vector<float> ColourLogRatio(const SkyFeatures& features, const cv::Mat& se
 }
 
 }  // namespace
-
-void SkyLikelihoodOptions::Validate() const {
-  if (work_width_px < 16) {
-    throw InputError("", "skyline.sky.work_width_px", std::to_string(work_width_px), "at least 16");
-  }
-  if (rounds < 0) throw InputError("", "skyline.sky.rounds", std::to_string(rounds), "at least 0");
-  if (!(max_log_odds > 0.0)) {
-    throw InputError("", "skyline.sky.max_log_odds", std::to_string(max_log_odds), "more than 0");
-  }
-}
 
 cv::Mat SkyLogOdds(const cv::Mat& bgr, const SkyLikelihoodOptions& options) {
   const cv::Mat small = ReducedToWidth(bgr, options.work_width_px);

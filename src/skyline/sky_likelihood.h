@@ -16,12 +16,10 @@ struct SkyLikelihoodOptions {
   double max_log_odds = 4.0;
 
   void Visit(OptionVisitor& v) {
-    v.Field("work_width_px", work_width_px);
-    v.Field("rounds", rounds);
-    v.Field("max_log_odds", max_log_odds);
+    v.Field("work_width_px", work_width_px, AtLeast(16));
+    v.Field("rounds", rounds, NotNegative());
+    v.Field("max_log_odds", max_log_odds, Positive());
   }
-  // Throws InputError naming the field, e.g. "skyline.sky.rounds".
-  void Validate() const;
 };
 
 // Log odds of sky against not-sky of every pixel of the reduced picture (CV_32F; the scale is

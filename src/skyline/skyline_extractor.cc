@@ -9,19 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
 #include "skyline/column_path.h"
 #include "skyline/foliage.h"
 #include "skyline/reduce.h"
 
 namespace ridgeline {
 namespace {
-
-void RequirePositive(double value, const char* name) {
-  if (!(value > 0.0)) {
-    throw InputError("", std::string("skyline.") + name, std::to_string(value), "more than 0");
-  }
-}
 
 // exp(-step / contrast) for the largest step over the channels, as a table over 8-bit steps.
 cv::Mat SmoothnessTable(double contrast, double weight) {
@@ -130,21 +123,6 @@ void SharpenRows(const cv::Mat& bgr, double row_px, Skyline& skyline) {
 constexpr int kSameBoundary = 3;
 
 }  // namespace
-
-void SkylineOptions::Validate() const {
-  if (work_width_px < 16) {
-    throw InputError("", "skyline.work_width_px", std::to_string(work_width_px), "at least 16");
-  }
-  RequirePositive(region_weight, "region_weight");
-  RequirePositive(edge_weight, "edge_weight");
-  RequirePositive(step_weight, "step_weight");
-  RequirePositive(contrast, "contrast");
-  RequirePositive(margin_scale, "margin_scale");
-  if (!(min_confidence >= 0.0 && min_confidence < 1.0)) {
-    throw InputError("", "skyline.min_confidence", std::to_string(min_confidence), "[0, 1)");
-  }
-  sky.Validate();
-}
 
 Skyline ExtractSkyline(const cv::Mat& bgr, const SkylineOptions& options) {
   const cv::Mat work = ReducedToWidth(bgr, options.work_width_px);

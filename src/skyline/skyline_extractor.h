@@ -27,17 +27,15 @@ struct SkylineOptions {
   SkyLikelihoodOptions sky;
 
   void Visit(OptionVisitor& v) {
-    v.Field("work_width_px", work_width_px);
-    v.Field("region_weight", region_weight);
-    v.Field("edge_weight", edge_weight);
-    v.Field("step_weight", step_weight);
-    v.Field("contrast", contrast);
-    v.Field("margin_scale", margin_scale);
-    v.Field("min_confidence", min_confidence);
+    v.Field("work_width_px", work_width_px, AtLeast(16));
+    v.Field("region_weight", region_weight, Positive());
+    v.Field("edge_weight", edge_weight, Positive());
+    v.Field("step_weight", step_weight, Positive());
+    v.Field("contrast", contrast, Positive());
+    v.Field("margin_scale", margin_scale, Positive());
+    v.Field("min_confidence", min_confidence, RightOpen(0.0, 1.0));
     v.Group("sky", [&](OptionVisitor& g) { sky.Visit(g); });
   }
-  // Throws InputError naming the field, e.g. "skyline.work_width_px".
-  void Validate() const;
 };
 
 // The skyline as the cheapest boundary that crosses every column once: sky-likeness of the pixels

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "camera/local_frame.h"
 #include "eval/bench.h"
 #include "localize/pose_scorer.h"
 #include "localize/sampled_search.h"
@@ -28,7 +29,7 @@ class QueryStudy {
              const StudyOptions& options)
       : localizer_(localizer),
         options_(options),
-        truth_(*query.truth),
+        truth_(LocalFrame{localizer.scene().model().origin_in_world}.FromWorld(*query.truth)),
         prior_(input.prior),
         evidence_(UndistortImage(BgrOf(input.picture), input.camera),
                   input.camera.Pinhole(),
@@ -36,9 +37,7 @@ class QueryStudy {
                   localizer.options().score.evidence,
                   options.threads,
                   input.lines),
-        space_(input.prior, ranges, localizer.scene(), localizer.dtm(), localizer.footprints()) {
-    truth_.center_in_world -= localizer.scene().model().origin_in_world;
-  }
+        space_(input.prior, ranges, localizer.scene(), localizer.dtm(), localizer.footprints()) {}
 
   // The map and its figures.
   ScoreStudy Map(const ScoreChoice& choice) const {

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "synth/renderer.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "projection/triangle_scene.h"
 #include "synth/detail_mesh.h"
 #include "synth/paint.h"
 
@@ -53,66 +52,14 @@ struct TownRenderer::Impl {
     AddBuildings(town, overhang_m, mesh);
     AddGround(town, mesh);
     AddStreetLife(town, mesh);
-    device = rtcNewDevice(nullptr);
-    scene = rtcNewScene(device);
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    void* vertices = rtcSetNewGeometryBuffer(geometry,
-                                             RTC_BUFFER_TYPE_VERTEX,
-                                             0,
-                                             RTC_FORMAT_FLOAT3,
-                                             sizeof(Vector3f),
-                                             mesh.vertices.size());
-    std::memcpy(vertices, mesh.vertices.data(), mesh.vertices.size() * sizeof(Vector3f));
-    auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(geometry,
-                                                                        RTC_BUFFER_TYPE_INDEX,
-                                                                        0,
-                                                                        RTC_FORMAT_UINT3,
-                                                                        3 * sizeof(std::uint32_t),
-                                                                        mesh.triangles.size()));
-    for (const DetailTriangle& triangle : mesh.triangles) {
-      indices = std::copy(triangle.vertices.begin(), triangle.vertices.end(), indices);
-    }
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene);
-  }
-  ~Impl() {
-    rtcReleaseScene(scene);
-    rtcReleaseDevice(device);
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (const DetailTriangle& triangle : mesh.triangles) triangles.push_back(triangle.vertices);
+    scene.emplace(mesh.vertices, triangles);
   }
 
-  RTCRayHit Trace(const Vector3f& from, const Vector3f& direction) const {
-    RTCRayHit hit{};
-    SetRay(hit.ray, from, direction, std::numeric_limits<float>::infinity());
-    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    rtcIntersect1(scene, &context, &hit);
-    return hit;
-  }
-  bool Occluded(const Vector3f& from, const Vector3f& direction, float reach_m) const {
-    RTCRay ray{};
-    SetRay(ray, from, direction, reach_m);
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded1(scene, &context, &ray);
-    return ray.tfar < 0.0f;
-  }
-  static void SetRay(RTCRay& ray, const Vector3f& from, const Vector3f& direction, float reach_m) {
-    ray.org_x = from.x();
-    ray.org_y = from.y();
-    ray.org_z = from.z();
-    ray.dir_x = direction.x();
-    ray.dir_y = direction.y();
-    ray.dir_z = direction.z();
-    ray.tnear = 0.0f;
-    ray.tfar = reach_m;
-    ray.mask = 0xFFFFFFFFu;
-  }
-
-  Paint PaintAt(const DetailTriangle& triangle, const RTCHit& hit, const Vector3f& point) const {
+  Paint PaintAt(const DetailTriangle& triangle,
+                const TriangleHit& hit,
+                const Vector3f& point) const {
     switch (triangle.material) {
       case Material::kFacade: {
         const Vector2f uv = (1.0f - hit.u - hit.v) * mesh.uv[triangle.vertices[0]] +
@@ -136,16 +83,15 @@ struct TownRenderer::Impl {
                     const Vector3f& direction,
                     const Weather& weather,
                     const Vector2f& random) const {
-    const RTCRayHit hit = Trace(from, direction);
-    const Vector3f sky = SkyColor(weather, direction);
-    if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return sky;
-    const DetailTriangle& triangle = mesh.triangles[hit.hit.primID];
-    Vector3f normal = Vector3f(hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z).normalized();
+    const std::optional<TriangleHit> hit = scene->Cast(from, direction);
+    if (!hit) return SkyColor(weather, direction);
+    const DetailTriangle& triangle = mesh.triangles[hit->triangle];
+    Vector3f normal = hit->normal;
     if (normal.dot(direction) > 0.0f) normal = -normal;
-    const float distance = hit.ray.tfar;
+    const float distance = hit->distance;
     const Vector3f point = from + distance * direction;
     const Vector3f start = point + (1e-3f + 2e-5f * distance) * normal;
-    const Paint paint = PaintAt(triangle, hit.hit, point);
+    const Paint paint = PaintAt(triangle, *hit, point);
 
     Vector3f light =
         SkyLight(weather) * (0.55f + 0.45f * normal.z()) * Openness(start, normal, random);
@@ -153,7 +99,7 @@ struct TownRenderer::Impl {
                              ? 0.5f + 0.5f * std::abs(normal.dot(weather.to_sun))
                              : normal.dot(weather.to_sun);
     if (weather.sun > 0.0f && facing > 0.0f &&
-        !Occluded(start, weather.to_sun, std::numeric_limits<float>::infinity())) {
+        !scene->IsBlocked(start, weather.to_sun, std::numeric_limits<float>::infinity())) {
       light += weather.sun * facing * kSunLight;
     }
     Vector3f color = paint.albedo.cwiseProduct(light);
@@ -176,13 +122,12 @@ struct TownRenderer::Impl {
     const float turn = 2.0f * std::numbers::pi_v<float> * random.y();
     const Vector3f direction = r * std::cos(turn) * tangent + r * std::sin(turn) * bitangent +
                                std::sqrt(1.0f - random.x()) * normal;
-    return Occluded(start, direction, kOcclusionReachM) ? 0.35f : 1.0f;
+    return scene->IsBlocked(start, direction, kOcclusionReachM) ? 0.35f : 1.0f;
   }
 
   const Town& town;
   DetailMesh mesh;
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
+  std::optional<TriangleScene> scene;
 };
 
 TownRenderer::TownRenderer(const Town& town, double overhang_m)
@@ -232,15 +177,15 @@ ViewStatistics TownRenderer::Probe(const CameraIntrinsics& camera,
     for (int y = 0; y < kRays; ++y) {
       const Vector2d px((x + 0.5) * camera.width / kRays, (y + 0.5) * camera.height / kRays);
       const Vector3d ray = cam_from_local.cam_from_world.conjugate() * pinhole.RayFromImage(px);
-      const RTCRayHit hit = impl_->Trace(cam_from_local.center_in_world.cast<float>(),
-                                         ray.normalized().cast<float>());
-      if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+      const std::optional<TriangleHit> hit = impl_->scene->Cast(
+          cam_from_local.center_in_world.cast<float>(), ray.normalized().cast<float>());
+      if (!hit) {
         statistics.sky_share += 1.0 / (kRays * kRays);
         sky_above = true;
         continue;
       }
-      const DetailTriangle& triangle = impl_->mesh.triangles[hit.hit.primID];
-      const double distance = hit.ray.tfar;
+      const DetailTriangle& triangle = impl_->mesh.triangles[hit->triangle];
+      const double distance = hit->distance;
       if (triangle.material != Material::kGround) {
         statistics.nearest_m = std::min(statistics.nearest_m, distance);
       }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
 #include "base/random.h"
 #include "synth/town_block.h"
 #include "synth/town_style.h"
@@ -18,20 +17,16 @@ constexpr std::uint64_t kTerrainStage = 0x11;
 // Crossings leave the regular lattice by this share of the spacing at most, in each direction.
 constexpr double kJitter = 0.11;
 
-void Require(bool valid, const char* field, double found, const char* expected) {
-  if (!valid) throw InputError("", std::string("town.") + field, std::to_string(found), expected);
-}
-
 }  // namespace
 
-void TownOptions::Validate() const {
-  Require(seed >= 0, "seed", seed, ">= 0");
-  Require(blocks_east > 0 && blocks_east <= 1000, "blocks_east", blocks_east, "1 to 1000");
-  Require(blocks_north > 0 && blocks_north <= 1000, "blocks_north", blocks_north, "1 to 1000");
-  Require(block_m >= 60.0 && block_m <= 200.0, "block_m", block_m, "60 to 200 m");
-  Require(relief_m >= 0.0 && relief_m <= 30.0, "relief_m", relief_m, "0 to 30 m");
-  Require(trees >= 0.0 && trees <= 2.0, "trees", trees, "0 to 2");
-  FindTownStyle(style);
+void TownOptions::Visit(OptionVisitor& v) {
+  v.Field("seed", seed, NotNegative());
+  v.Field("blocks_east", blocks_east, Closed(1, 1000));
+  v.Field("blocks_north", blocks_north, Closed(1, 1000));
+  v.Field("block_m", block_m, Closed(60.0, 200.0));
+  v.Field("relief_m", relief_m, Closed(0.0, 30.0));
+  v.Field("style", style, OneOf{TownStyleNames()});
+  v.Field("trees", trees, Closed(0.0, 2.0));
 }
 
 std::array<Eigen::Vector2d, 4> TownBuilding::Footprint() const {
@@ -97,7 +92,7 @@ Town MakeTown(const TownOptions& options) {
 }
 
 Town MakeTownPart(const TownOptions& options, int column, int row, int column_end, int row_end) {
-  options.Validate();
+  CheckOptions(options, "town");
   Town town;
   town.options = options;
   for (int r = row; r < row_end; ++r) {

@@ -29,17 +29,7 @@ struct TownOptions {
   // Trees along the streets, as a factor on the usual number.
   double trees = 1.0;
 
-  void Visit(OptionVisitor& v) {
-    v.Field("seed", seed);
-    v.Field("blocks_east", blocks_east);
-    v.Field("blocks_north", blocks_north);
-    v.Field("block_m", block_m);
-    v.Field("relief_m", relief_m);
-    v.Field("style", style);
-    v.Field("trees", trees);
-  }
-  // Throws InputError naming the field, e.g. "town.block_m".
-  void Validate() const;
+  void Visit(OptionVisitor& v);
 };
 
 enum class RoofType : std::uint8_t { kFlat, kGable, kHip, kPyramid, kShed };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/angle.h"
 #include "base/random.h"
 #include "synth/town_style.h"
 
@@ -14,7 +15,6 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr std::uint64_t kBlockStage = 0x20;
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 // Rows on the east and west side leave room for the buildings at the corners [m].
 constexpr double kCornerRoomM = 15.5;
 constexpr double kCornerMarginM = 2.0;

@@ -12,7 +12,6 @@
 
 #include "base/atomic_file.h"
 #include "base/decimals.h"
-#include "base/error.h"
 #include "base/random.h"
 #include "synth/renderer.h"
 #include "synth/town_model.h"
@@ -35,10 +34,6 @@ constexpr int kTileBlocks = 12;
 constexpr int kPictureBlocks = 6;
 constexpr double kDtmMarginM = 60.0;
 constexpr double kMaxDtmCells = 16e6;
-
-void Require(bool valid, const char* field, double found, const char* expected) {
-  if (!valid) throw InputError("", std::string("synth.") + field, std::to_string(found), expected);
-}
 
 Json PositionJson(const Vector3d& world) {
   return {RoundedTo(world.x(), 4), RoundedTo(world.y(), 4), RoundedTo(world.z(), 4)};
@@ -223,35 +218,11 @@ class DatasetWriter {
 
 }  // namespace
 
-void TownDatasetOptions::Validate() const {
-  town.Validate();
-  trouble.Validate();
-  Require(street >= 0 && street <= 1000, "street", street, "0 to 1000");
-  Require(tilted >= 0 && tilted <= 1000, "tilted", tilted, "0 to 1000");
-  Require(portrait >= 0 && portrait <= 1000, "portrait", portrait, "0 to 1000");
-  Require(drone >= 0 && drone <= 1000, "drone", drone, "0 to 1000");
-  Require(low >= 0 && low <= 1000, "low", low, "0 to 1000");
-  Require(nadir >= 0 && nadir <= 1000, "nadir", nadir, "0 to 1000");
-  Require(width >= 64 && width <= 10000, "width", width, "64 to 10000 px");
-  Require(height >= 64 && height <= 10000, "height", height, "64 to 10000 px");
-  Require(jpeg_quality >= 1 && jpeg_quality <= 100, "jpeg_quality", jpeg_quality, "1 to 100");
-  Require(overhang_m >= 0.0 && overhang_m <= 1.5, "overhang_m", overhang_m, "0 to 1.5 m");
-  Require(
-      survey_sigma_m >= 0.0 && survey_sigma_m <= 2.0, "survey_sigma_m", survey_sigma_m, "0 to 2 m");
-  Require(prior_m >= 0.0 && prior_m <= 1000.0, "prior_m", prior_m, "0 to 1000 m");
-  Require(prior_heading_deg >= 0.0 && prior_heading_deg <= 180.0,
-          "prior_heading_deg",
-          prior_heading_deg,
-          "0 to 180");
-  Require(
-      prior_tilt_deg >= 0.0 && prior_tilt_deg <= 30.0, "prior_tilt_deg", prior_tilt_deg, "0 to 30");
-}
-
 TownDatasetSummary WriteTownDataset(const TownDatasetOptions& options,
                                     const fs::path& folder,
                                     int threads,
                                     const FileProgress& progress) {
-  options.Validate();
+  CheckOptions(options);
   return DatasetWriter(options, folder, threads, progress).Write();
 }
 

@@ -40,26 +40,24 @@ struct TownDatasetOptions {
 
   void Visit(OptionVisitor& v) {
     v.Group("town", [&](OptionVisitor& g) { town.Visit(g); });
-    v.Field("street", street);
-    v.Field("tilted", tilted);
-    v.Field("portrait", portrait);
-    v.Field("drone", drone);
-    v.Field("low", low);
-    v.Field("nadir", nadir);
-    v.Field("width", width);
-    v.Field("height", height);
-    v.Field("jpeg_quality", jpeg_quality);
+    v.Field("street", street, Closed(0, 1000));
+    v.Field("tilted", tilted, Closed(0, 1000));
+    v.Field("portrait", portrait, Closed(0, 1000));
+    v.Field("drone", drone, Closed(0, 1000));
+    v.Field("low", low, Closed(0, 1000));
+    v.Field("nadir", nadir, Closed(0, 1000));
+    v.Field("width", width, Closed(64, 10000));
+    v.Field("height", height, Closed(64, 10000));
+    v.Field("jpeg_quality", jpeg_quality, Closed(1, 100));
     v.Field("one_camera", one_camera);
     v.Field("grey", grey);
-    v.Field("overhang_m", overhang_m);
-    v.Field("survey_sigma_m", survey_sigma_m);
+    v.Field("overhang_m", overhang_m, Closed(0.0, 1.5));
+    v.Field("survey_sigma_m", survey_sigma_m, Closed(0.0, 2.0));
     v.Group("trouble", [&](OptionVisitor& g) { trouble.Visit(g); });
-    v.Field("prior_m", prior_m);
-    v.Field("prior_heading_deg", prior_heading_deg);
-    v.Field("prior_tilt_deg", prior_tilt_deg);
+    v.Field("prior_m", prior_m, Closed(0.0, 1000.0));
+    v.Field("prior_heading_deg", prior_heading_deg, Closed(0.0, 180.0));
+    v.Field("prior_tilt_deg", prior_tilt_deg, Closed(0.0, 30.0));
   }
-  // Throws InputError naming the field, e.g. "synth.width".
-  void Validate() const;
 };
 
 struct TownDatasetSummary {

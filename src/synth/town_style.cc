@@ -16,6 +16,12 @@ const std::array<TownStyle, 5> kStyles = {{
 
 }  // namespace
 
+std::vector<std::string> TownStyleNames() {
+  std::vector<std::string> names;
+  for (const TownStyle& style : kStyles) names.push_back(style.name);
+  return names;
+}
+
 const TownStyle& FindTownStyle(const std::string& name) {
   std::string names;
   for (const TownStyle& style : kStyles) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace ridgeline {
 
@@ -24,6 +25,9 @@ struct TownStyle {
   double most_gap_m = 7.0;  // between detached houses
   double church_share = 0.3;
 };
+
+// What TownOptions::style may be.
+std::vector<std::string> TownStyleNames();
 
 // Throws InputError("town.style", ...) with the names.
 const TownStyle& FindTownStyle(const std::string& name);

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
 #include "base/random.h"
 
 namespace ridgeline {
@@ -20,12 +19,6 @@ constexpr std::uint64_t kFocalStage = 0x93;
 // A building keeps at least this [m].
 constexpr double kLeastSideM = 3.0;
 constexpr double kLeastStoreyM = 2.0;
-
-void Require(bool valid, const char* field, double found, const char* expected) {
-  if (!valid) {
-    throw InputError("", std::string("trouble.") + field, std::to_string(found), expected);
-  }
-}
 
 // The building that a building or part belongs to.
 const TownBuilding& Whole(const Town& town, const TownBuilding& building) {
@@ -80,17 +73,6 @@ void Flatten(TownBuilding& building) {
 }
 
 }  // namespace
-
-void TroubleOptions::Validate() const {
-  const auto share = [](double value) { return value >= 0.0 && value <= 1.0; };
-  Require(share(wrong_share), "wrong_share", wrong_share, "0 to 1");
-  Require(roof_m >= 0.0 && roof_m <= 5.0, "roof_m", roof_m, "0 to 5 m");
-  Require(outline_m >= 0.0 && outline_m <= 5.0, "outline_m", outline_m, "0 to 5 m");
-  Require(share(missing_share), "missing_share", missing_share, "0 to 1");
-  Require(share(gone_share), "gone_share", gone_share, "0 to 1");
-  Require(focal_share >= 0.0 && focal_share < 0.9, "focal_share", focal_share, "0 to 0.9");
-  Require(lod == 1 || lod == 2, "lod", lod, "1 or 2");
-}
 
 Town StandingTown(const Town& town, const TroubleOptions& options) {
   return Without(town, options.gone_share, kGoneStage);

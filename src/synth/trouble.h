@@ -27,16 +27,14 @@ struct TroubleOptions {
   int lod = 2;
 
   void Visit(OptionVisitor& v) {
-    v.Field("wrong_share", wrong_share);
-    v.Field("roof_m", roof_m);
-    v.Field("outline_m", outline_m);
-    v.Field("missing_share", missing_share);
-    v.Field("gone_share", gone_share);
-    v.Field("focal_share", focal_share);
-    v.Field("lod", lod);
+    v.Field("wrong_share", wrong_share, Closed(0.0, 1.0));
+    v.Field("roof_m", roof_m, Closed(0.0, 5.0));
+    v.Field("outline_m", outline_m, Closed(0.0, 5.0));
+    v.Field("missing_share", missing_share, Closed(0.0, 1.0));
+    v.Field("gone_share", gone_share, Closed(0.0, 1.0));
+    v.Field("focal_share", focal_share, RightOpen(0.0, 0.9));
+    v.Field("lod", lod, Closed(1, 2));
   }
-  // Throws InputError naming the field, e.g. "trouble.roof_m".
-  void Validate() const;
 };
 
 // The town as it stands: without the buildings that are gone. Parts go with their building.

@@ -2,15 +2,14 @@
 #include "synth/viewpoint.h"
 
 #include <cmath>
-#include <numbers>
 #include <utility>
+
+#include "base/angle.h"
 
 namespace ridgeline {
 namespace {
 
 using Eigen::Vector2d;
-
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 CameraIntrinsics DrawCamera(int width, int height, double hfov_deg, Random& random) {
   const double focal = 0.5 * width / std::tan(0.5 * hfov_deg / kDegPerRad);

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "base/error.h"
+#include "base/angle.h"
 #include "base/random.h"
 
 namespace ridgeline {
@@ -15,7 +15,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kDeg = 180.0 / std::numbers::pi;
 constexpr std::uint64_t kWalkStage = 0x90;
 // The walker keeps to the roadway, so far from the middle line [m].
 constexpr double kOffMiddleM = 1.5;
@@ -82,27 +81,23 @@ class Sway {
   double phases_[3] = {};
 };
 
-void Require(bool valid, const char* field, double found, const char* expected) {
-  if (!valid) throw InputError("", std::string("walk.") + field, std::to_string(found), expected);
-}
-
 }  // namespace
 
 void OdometryErrors::Visit(OptionVisitor& v) {
-  v.Field("scale", scale);
-  v.Field("noise_share", noise_share);
-  v.Field("heading_noise_deg", heading_noise_deg);
-  v.Field("drift_deg_s", drift_deg_s);
+  v.Field("scale", scale, Positive());
+  v.Field("noise_share", noise_share, NotNegative());
+  v.Field("heading_noise_deg", heading_noise_deg, NotNegative());
+  v.Field("drift_deg_s", drift_deg_s, AnyNumber());
 }
 
 void GnssTrouble::Visit(OptionVisitor& v) {
-  v.Field("outage_from_s", outage_from_s);
-  v.Field("outage_to_s", outage_to_s);
-  v.Field("jump_at_s", jump_at_s);
-  v.Field("jump_m", jump_m);
-  v.Field("spoof_from_s", spoof_from_s);
-  v.Field("spoof_m_s", spoof_m_s);
-  v.Field("noise_m", noise_m);
+  v.Field("outage_from_s", outage_from_s, AnyNumber());
+  v.Field("outage_to_s", outage_to_s, AnyNumber());
+  v.Field("jump_at_s", jump_at_s, AnyNumber());
+  v.Field("jump_m", jump_m, NotNegative());
+  v.Field("spoof_from_s", spoof_from_s, AnyNumber());
+  v.Field("spoof_m_s", spoof_m_s, NotNegative());
+  v.Field("noise_m", noise_m, NotNegative());
 }
 
 WalkOptions DriveDefaults() {
@@ -134,82 +129,39 @@ WalkOptions FlightDefaults() {
 
 void WalkOptions::Visit(OptionVisitor& v) {
   v.Group("town", [&](OptionVisitor& g) { town.Visit(g); });
-  v.Field("frames", frames);
-  v.Field("frames_per_second", frames_per_second);
-  v.Field("width", width);
-  v.Field("height", height);
-  v.Field("horizontal_fov_deg", horizontal_fov_deg);
-  v.Field("jpeg_quality", jpeg_quality);
-  v.Field("speed_m_s", speed_m_s);
-  v.Field("pitch_deg", pitch_deg);
-  v.Field("overhang_m", overhang_m);
-  v.Field("survey_sigma_m", survey_sigma_m);
-  v.Field("compass_error_deg", compass_error_deg);
-  v.Field("compass_noise_deg", compass_noise_deg);
-  v.Field("declination_deg", declination_deg);
-  v.Field("gnss_error_low_m", gnss_error_low_m);
-  v.Field("gnss_error_high_m", gnss_error_high_m);
-  v.Field("altitude_noise_m", altitude_noise_m);
-  v.Field("altitude_jump_m", altitude_jump_m);
-  v.Field("tilt_sigma_deg", tilt_sigma_deg);
-  v.Field("acceleration_noise", acceleration_noise);
-  v.Field("pressure_noise_hpa", pressure_noise_hpa);
-  v.Field("gyro_bias", gyro_bias);
-  v.Field("gyro_noise", gyro_noise);
-  v.Field("eye_height_m", eye_height_m);
-  v.Field("look_deg", look_deg);
-  v.Field("hand_deg", hand_deg);
-  v.Field("bob_m", bob_m);
+  const int most_blocks = std::max(town.blocks_east, town.blocks_north);
+  v.Rule("town.blocks_east",
+         most_blocks <= 6,
+         std::to_string(most_blocks),
+         "at most 6 blocks each way");
+  v.Field("frames", frames, Closed(1, 100000));
+  v.Field("frames_per_second", frames_per_second, Positive());
+  v.Field("width", width, Closed(64, 10000));
+  v.Field("height", height, Closed(64, 10000));
+  v.Field("horizontal_fov_deg", horizontal_fov_deg, Closed(20.0, 120.0));
+  v.Field("jpeg_quality", jpeg_quality, Closed(1, 100));
+  v.Field("speed_m_s", speed_m_s, NotNegative());
+  v.Field("pitch_deg", pitch_deg, Closed(-45.0, 45.0));
+  v.Field("overhang_m", overhang_m, NotNegative());
+  v.Field("survey_sigma_m", survey_sigma_m, NotNegative());
+  v.Field("compass_error_deg", compass_error_deg, NotNegative());
+  v.Field("compass_noise_deg", compass_noise_deg, NotNegative());
+  v.Field("declination_deg", declination_deg, Closed(-180.0, 180.0));
+  v.Field("gnss_error_low_m", gnss_error_low_m, NotNegative());
+  v.Field("gnss_error_high_m", gnss_error_high_m, AtLeast(gnss_error_low_m, "gnss_error_low_m"));
+  v.Field("altitude_noise_m", altitude_noise_m, NotNegative());
+  v.Field("altitude_jump_m", altitude_jump_m, NotNegative());
+  v.Field("tilt_sigma_deg", tilt_sigma_deg, NotNegative());
+  v.Field("acceleration_noise", acceleration_noise, NotNegative());
+  v.Field("pressure_noise_hpa", pressure_noise_hpa, NotNegative());
+  v.Field("gyro_bias", gyro_bias, NotNegative());
+  v.Field("gyro_noise", gyro_noise, NotNegative());
+  v.Field("eye_height_m", eye_height_m, Positive());
+  v.Field("look_deg", look_deg, NotNegative());
+  v.Field("hand_deg", hand_deg, NotNegative());
+  v.Field("bob_m", bob_m, NotNegative());
   v.Group("odometry", [&](OptionVisitor& g) { odometry.Visit(g); });
   v.Group("gnss", [&](OptionVisitor& g) { gnss.Visit(g); });
-}
-
-void WalkOptions::Validate() const {
-  town.Validate();
-  Require(town.blocks_east <= 6 && town.blocks_north <= 6,
-          "town.blocks_east",
-          std::max(town.blocks_east, town.blocks_north),
-          "at most 6 blocks each way");
-  Require(frames >= 1 && frames <= 100000, "frames", frames, "1 to 100000");
-  Require(frames_per_second > 0.0, "frames_per_second", frames_per_second, "more than 0");
-  Require(width >= 64 && width <= 10000, "width", width, "64 to 10000 px");
-  Require(height >= 64 && height <= 10000, "height", height, "64 to 10000 px");
-  Require(horizontal_fov_deg >= 20.0 && horizontal_fov_deg <= 120.0,
-          "horizontal_fov_deg",
-          horizontal_fov_deg,
-          "20 to 120");
-  Require(jpeg_quality >= 1 && jpeg_quality <= 100, "jpeg_quality", jpeg_quality, "1 to 100");
-  Require(speed_m_s >= 0.0, "speed_m_s", speed_m_s, "at least 0");
-  Require(std::abs(pitch_deg) <= 45.0, "pitch_deg", pitch_deg, "-45 to 45");
-  Require(eye_height_m > 0.0, "eye_height_m", eye_height_m, "more than 0");
-  Require(odometry.scale > 0.0, "odometry.scale", odometry.scale, "more than 0");
-  Require(std::abs(declination_deg) <= 180.0, "declination_deg", declination_deg, "-180 to 180");
-  Require(gnss_error_high_m >= gnss_error_low_m,
-          "gnss_error_high_m",
-          gnss_error_high_m,
-          "at least gnss_error_low_m");
-  const std::pair<const char*, double> not_negative[] = {
-      {"overhang_m", overhang_m},
-      {"survey_sigma_m", survey_sigma_m},
-      {"compass_error_deg", compass_error_deg},
-      {"compass_noise_deg", compass_noise_deg},
-      {"gnss_error_low_m", gnss_error_low_m},
-      {"altitude_noise_m", altitude_noise_m},
-      {"altitude_jump_m", altitude_jump_m},
-      {"tilt_sigma_deg", tilt_sigma_deg},
-      {"acceleration_noise", acceleration_noise},
-      {"pressure_noise_hpa", pressure_noise_hpa},
-      {"gyro_bias", gyro_bias},
-      {"gyro_noise", gyro_noise},
-      {"look_deg", look_deg},
-      {"hand_deg", hand_deg},
-      {"bob_m", bob_m},
-      {"odometry.noise_share", odometry.noise_share},
-      {"odometry.heading_noise_deg", odometry.heading_noise_deg},
-      {"gnss.jump_m", gnss.jump_m},
-      {"gnss.spoof_m_s", gnss.spoof_m_s},
-      {"gnss.noise_m", gnss.noise_m}};
-  for (const auto& [name, value] : not_negative) Require(value >= 0.0, name, value, "at least 0");
 }
 
 std::vector<Pose> WalkPoses(const Town& town, const WalkOptions& options) {
@@ -227,7 +179,7 @@ std::vector<Pose> WalkPoses(const Town& town, const WalkOptions& options) {
     const Place ahead = PlaceAt(way, (t + 1.5) * options.speed_m_s);
     const double turn =
         std::remainder(ahead.heading_rad - place.heading_rad, 2.0 * std::numbers::pi);
-    const double heading_deg = (place.heading_rad + 0.5 * turn) * kDeg +
+    const double heading_deg = (place.heading_rad + 0.5 * turn) * kDegPerRad +
                                options.look_deg * look.At(t) +
                                0.75 * options.hand_deg * hand_heading.At(t);
     const double bob = options.bob_m * std::sin(2.0 * std::numbers::pi * kStepRate * t);

@@ -87,8 +87,6 @@ struct WalkOptions {
   GnssTrouble gnss;
 
   void Visit(OptionVisitor& v);
-  // Throws InputError naming the field, e.g. "walk.frames".
-  void Validate() const;
 };
 
 // A car's camera: 720p, level, looking ahead, 2 frames a second at 8 m/s.

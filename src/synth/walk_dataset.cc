@@ -8,6 +8,7 @@
 #include "base/atomic_file.h"
 #include "base/decimals.h"
 #include "base/random.h"
+#include "camera/local_frame.h"
 #include "synth/renderer.h"
 #include "synth/town_model.h"
 #include "synth/walk.h"
@@ -60,7 +61,7 @@ TownDatasetSummary WriteWalkDataset(const WalkOptions& options,
                                     const fs::path& folder,
                                     int threads,
                                     const FileProgress& progress) {
-  options.Validate();
+  CheckOptions(options);
   const std::size_t total = 2 + static_cast<std::size_t>(options.frames);
   TownDatasetSummary summary;
   const Town town = MakeTown(options.town);
@@ -89,9 +90,8 @@ TownDatasetSummary WriteWalkDataset(const WalkOptions& options,
     std::vector<uchar> jpeg;
     cv::imencode(".jpg", photo, jpeg, {cv::IMWRITE_JPEG_QUALITY, options.jpeg_quality});
     WriteFileAtomically(folder / image, {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()});
-    Pose world = poses[i];
-    world.center_in_world += town.origin_in_world;
-    queries.push_back(QueryJson(id, image, camera, world));
+    queries.push_back(
+        QueryJson(id, image, camera, LocalFrame{town.origin_in_world}.ToWorld(poses[i])));
     ++summary.pictures;
     progress(2 + summary.pictures, total);
   }

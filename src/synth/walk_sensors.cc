@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "base/angle.h"
 #include "base/error.h"
 #include "base/random.h"
 #include "city/crs.h"
@@ -16,7 +17,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kDeg = 180.0 / std::numbers::pi;
 constexpr std::uint64_t kSensorStage = 0x91;
 constexpr std::uint64_t kGyroStage = 0x93;
 constexpr std::uint64_t kGnssStage = 0x95;
@@ -74,9 +74,9 @@ double ConvergenceDeg(const Crs& crs, const Vector2d& east_north) {
   const auto north = LatitudeLongitude(crs, east_north + Vector2d(0.0, kStepM));
   if (!here || !north) return 0.0;
   const double north_deg = north->x() - here->x();
-  const double east_deg = (north->y() - here->y()) * std::cos(here->x() / kDeg);
+  const double east_deg = (north->y() - here->y()) * std::cos(here->x() / kDegPerRad);
   // Grid north as seen from true north, turned around.
-  return -std::atan2(east_deg, north_deg) * kDeg;
+  return -std::atan2(east_deg, north_deg) * kDegPerRad;
 }
 
 // What befalls the receiver at a time.
@@ -222,8 +222,8 @@ std::string WalkOdometryCsv(const std::vector<Pose>& cam_from_local, const WalkO
     const double tilt_deg = errors.heading_noise_deg / 3.0;
     const Vector3d turn(tilt_deg * random.Normal(), heading_deg, tilt_deg * random.Normal());
     const Eigen::Quaterniond error(
-        Eigen::AngleAxisd(turn.norm() / kDeg, turn.norm() > 0.0 ? Vector3d(turn.normalized())
-                                                                 : Vector3d::UnitY()));
+        Eigen::AngleAxisd(turn.norm() / kDegPerRad,
+                          turn.norm() > 0.0 ? Vector3d(turn.normalized()) : Vector3d::UnitY()));
     const Eigen::Quaterniond before_from_now =
         before.cam_from_world * now.cam_from_world.conjugate() * error;
     const double sigma_deg =

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/angle.h"
 #include "synth/paint.h"
 
 namespace ridgeline {
@@ -12,7 +12,6 @@ namespace ridgeline {
 using Eigen::Vector3f;
 
 Weather DrawWeather(Random& random) {
-  constexpr double kRadPerDeg = std::numbers::pi / 180.0;
   const double azimuth = random.Uniform(80.0, 280.0) * kRadPerDeg;
   const double elevation = random.Uniform(18.0, 55.0) * kRadPerDeg;
   Weather weather;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string>
 
-#include "base/error.h"
 
 namespace ridgeline {
 namespace {
@@ -17,27 +16,16 @@ constexpr double kTie = 1.0 - 1e-9;
 }  // namespace
 
 void GnssMonitorOptions::Visit(OptionVisitor& v) {
-  v.Field("noise_m", noise_m);
-  v.Field("drift_m", drift_m);
-  v.Field("drift_time_s", drift_time_s);
-  v.Field("window_s", window_s);
-  v.Field("step_s", step_s);
-  v.Field("threshold", threshold);
-}
-
-void GnssMonitorOptions::Validate() const {
-  const auto require = [](bool valid, const char* field, double found, const char* expected) {
-    if (!valid) throw InputError("", std::string("gnss.") + field, std::to_string(found), expected);
-  };
-  require(noise_m > 0.0, "noise_m", noise_m, "more than 0");
-  require(drift_m >= 0.0, "drift_m", drift_m, "at least 0");
-  require(drift_time_s > 0.0, "drift_time_s", drift_time_s, "more than 0");
-  require(step_s > 0.0, "step_s", step_s, "more than 0");
-  require(window_s >= step_s && window_s <= 1000.0 * step_s,
-          "window_s",
-          window_s,
-          "one to a thousand steps (gnss.step_s)");
-  require(threshold > 0.0, "threshold", threshold, "more than 0");
+  v.Field("noise_m", noise_m, Positive());
+  v.Field("drift_m", drift_m, NotNegative());
+  v.Field("drift_time_s", drift_time_s, Positive());
+  v.Field("window_s", window_s, Positive());
+  v.Field("step_s", step_s, Positive());
+  v.Rule("window_s",
+         window_s >= step_s && window_s <= 1000.0 * step_s,
+         std::to_string(window_s),
+         "one to a thousand steps (step_s)");
+  v.Field("threshold", threshold, Positive());
 }
 
 GnssMonitor::GnssMonitor(const GnssMonitorOptions& options)

@@ -22,8 +22,6 @@ struct GnssMonitorOptions {
   double threshold = 13.0;
 
   void Visit(OptionVisitor& v);
-  // Throws InputError naming the field, e.g. "gnss.noise_m".
-  void Validate() const;
 };
 
 // Whether a receiver lies, judged against positions that it had no part in. Under honesty the

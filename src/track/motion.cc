@@ -3,18 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "base/angle.h"
 
 namespace ridgeline {
 
 Motion Composed(const Motion& first, const Motion& second) {
-  constexpr double kRad = std::numbers::pi / 180.0;
   Motion motion;
   motion.now_from_before = (second.now_from_before * first.now_from_before).normalized();
   motion.step_in_before =
       first.step_in_before + first.now_from_before.conjugate() * second.step_in_before;
   // A turn that is off puts the second step off to its side.
-  const double aside_m = first.sigma_deg * kRad * second.step_in_before.norm();
+  const double aside_m = first.sigma_deg * kRadPerDeg * second.step_in_before.norm();
   motion.sigma_m = std::hypot(first.sigma_m, second.sigma_m, aside_m);
   motion.sigma_deg = std::hypot(first.sigma_deg, second.sigma_deg);
   motion.scale_sigma = std::max(first.scale_sigma, second.scale_sigma);

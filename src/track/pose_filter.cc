@@ -9,7 +9,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "base/error.h"
 #include "track/bell_mixture.h"
 
 namespace ridgeline {
@@ -60,31 +59,14 @@ std::vector<double> Normalized(const std::vector<double>& log_weights) {
 }  // namespace
 
 void PoseFilterOptions::Visit(OptionVisitor& v) {
-  v.Field("particles", particles);
-  v.Field("samples", samples);
-  v.Field("rounds", rounds);
-  v.Field("temperature", temperature);
-  v.Field("lie_share", lie_share);
-  v.Field("elsewhere_share", elsewhere_share);
-  v.Field("floor_m", floor_m);
-  v.Field("floor_deg", floor_deg);
-}
-
-void PoseFilterOptions::Validate() const {
-  const auto require = [](bool valid, const char* field, double found, const char* expected) {
-    if (!valid) throw InputError("", std::string("filter.") + field, std::to_string(found), expected);
-  };
-  require(particles >= 20 && particles <= 20000, "particles", particles, "20 to 20000");
-  require(samples >= 50 && samples <= 20000, "samples", samples, "50 to 20000");
-  require(rounds >= 1 && rounds <= 10, "rounds", rounds, "1 to 10");
-  require(temperature >= 1.0, "temperature", temperature, "at least 1");
-  require(lie_share > 0.0 && lie_share < 1.0, "lie_share", lie_share, "between 0 and 1");
-  require(elsewhere_share >= 0.0 && elsewhere_share < 1.0,
-          "elsewhere_share",
-          elsewhere_share,
-          "0 to less than 1");
-  require(floor_m > 0.0, "floor_m", floor_m, "more than 0");
-  require(floor_deg > 0.0, "floor_deg", floor_deg, "more than 0");
+  v.Field("particles", particles, Closed(20, 20000));
+  v.Field("samples", samples, Closed(50, 20000));
+  v.Field("rounds", rounds, Closed(1, 10));
+  v.Field("temperature", temperature, AtLeast(1.0));
+  v.Field("lie_share", lie_share, Open(0.0, 1.0));
+  v.Field("elsewhere_share", elsewhere_share, RightOpen(0.0, 1.0));
+  v.Field("floor_m", floor_m, Positive());
+  v.Field("floor_deg", floor_deg, Positive());
 }
 
 double PoseRegion::LogDensity(const PoseVector& v) const {

@@ -32,8 +32,6 @@ struct PoseFilterOptions {
   double floor_deg = 0.08;
 
   void Visit(OptionVisitor& v);
-  // Throws InputError naming the field, e.g. "filter.particles".
-  void Validate() const;
 };
 
 // Where a camera may be that was not followed: uniform in place and heading, normal in height above

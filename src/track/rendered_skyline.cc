@@ -5,10 +5,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/angle.h"
+
 namespace ridgeline {
 namespace {
 
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr double kViewRad = std::numbers::pi / 3.0;
 // Above and below the horizon that a view shows (tangent): skylines of near houses are high.
 constexpr double kAbove = 2.2;

@@ -3,53 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "base/error.h"
+#include "base/angle.h"
 #include "city/crs.h"
 
 namespace ridgeline {
-namespace {
-
-constexpr double kDeg = 180.0 / std::numbers::pi;
-
-void RequireOneOf(const char* name,
-                  const std::string& value,
-                  const std::vector<std::string>& names,
-                  const char* expected) {
-  if (std::find(names.begin(), names.end(), value) != names.end()) return;
-  throw InputError("", std::string("sensors.") + name, '"' + value + '"', expected);
-}
-
-}  // namespace
-
-void SensorOptions::Validate() const {
-  RequireOneOf("heading_reference",
-               heading_reference,
-               {"grid", "true", "magnetic"},
-               "grid, true or magnetic");
-  RequireOneOf(
-      "roll_sense", roll_sense, {"clockwise", "counterclockwise"}, "clockwise or counterclockwise");
-  RequireOneOf("held", held, {"portrait", "landscape"}, "portrait or landscape");
-  RequireOneOf("attitude", attitude, {"instruments", "gyroscope"}, "instruments or gyroscope");
-  if (!(gyro_time_constant_s > 0.0)) {
-    throw InputError("",
-                     "sensors.gyro_time_constant_s",
-                     std::to_string(gyro_time_constant_s),
-                     "more than 0");
-  }
-  RequireOneOf(
-      "height_source", height_source, {"dtm", "gnss", "barometer"}, "dtm, gnss or barometer");
-  if (!(std::abs(declination_deg) <= 180.0)) {
-    throw InputError("", "sensors.declination_deg", std::to_string(declination_deg), "-180 to 180");
-  }
-  if (!(camera_height_m > 0.0)) {
-    throw InputError("", "sensors.camera_height_m", std::to_string(camera_height_m), "more than 0");
-  }
-}
 
 DeviceTilt TiltFromUpward(const Eigen::Vector3d& u) {
-  return {std::atan2(u.z(), std::hypot(u.x(), u.y())) * kDeg, std::atan2(-u.x(), -u.y()) * kDeg};
+  return {std::atan2(u.z(), std::hypot(u.x(), u.y())) * kDegPerRad,
+          std::atan2(-u.x(), -u.y()) * kDegPerRad};
 }
 
 Eigen::Vector3d UpwardInCamera(const Eigen::Vector3d& a, const std::string& held) {
@@ -64,7 +26,7 @@ double HeightBetween(double from_hpa, double to_hpa) {
 
 SensorPriors::SensorPriors(const Crs& crs, const SensorOptions& options)
     : crs_(crs), options_(options) {
-  options_.Validate();
+  CheckOptions(options_, "sensors");
 }
 
 Eigen::Vector2d SensorPriors::Project(double latitude_deg, double longitude_deg) const {
@@ -84,7 +46,7 @@ double SensorPriors::GridHeading(const SensorReading& reading) const {
   const Eigen::Vector2d here = Project(*reading.latitude_deg, *reading.longitude_deg);
   const Eigen::Vector2d north =
       Project(*reading.latitude_deg + kStepDeg, *reading.longitude_deg) - here;
-  return heading + std::atan2(north.x(), north.y()) * kDeg;
+  return heading + std::atan2(north.x(), north.y()) * kDegPerRad;
 }
 
 std::optional<double> SensorPriors::HeightOf(const SensorReading& reading,

@@ -51,17 +51,15 @@ struct SensorOptions {
   double camera_height_m = 1.6;
 
   void Visit(OptionVisitor& v) {
-    v.Field("heading_reference", heading_reference);
-    v.Field("declination_deg", declination_deg);
-    v.Field("roll_sense", roll_sense);
-    v.Field("held", held);
-    v.Field("attitude", attitude);
-    v.Field("gyro_time_constant_s", gyro_time_constant_s);
-    v.Field("height_source", height_source);
-    v.Field("camera_height_m", camera_height_m);
+    v.Field("heading_reference", heading_reference, OneOf{{"grid", "true", "magnetic"}});
+    v.Field("declination_deg", declination_deg, Closed(-180.0, 180.0));
+    v.Field("roll_sense", roll_sense, OneOf{{"clockwise", "counterclockwise"}});
+    v.Field("held", held, OneOf{{"portrait", "landscape"}});
+    v.Field("attitude", attitude, OneOf{{"instruments", "gyroscope"}});
+    v.Field("gyro_time_constant_s", gyro_time_constant_s, Positive());
+    v.Field("height_source", height_source, OneOf{{"dtm", "gnss", "barometer"}});
+    v.Field("camera_height_m", camera_height_m, Positive());
   }
-  // Throws InputError naming the field, e.g. "sensors.held".
-  void Validate() const;
 };
 
 // Reads a CSV with a header; '#' starts a comment line. Columns: id, time_s, lat_deg, lon_deg,

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "base/angle.h"
 #include "score/sky_score.h"
 
 namespace ridgeline {
@@ -21,7 +21,6 @@ constexpr std::array<double, kVariables> kSteps{1.0, 0.5, 1.0, 0.3, 0.3};
 constexpr double kMostPx = 60.0;
 // Columns to either side that a change is spread over.
 constexpr double kSpreadDeg = 1.5;
-constexpr double kRad = std::numbers::pi / 180.0;
 // Least deviation that a column is taken to have [px at 640].
 constexpr double kLeastDeviationPx = 1.0;
 // Deviations come by the roof, not by the column: so many pixels (at 640) count as one. Found on
@@ -72,7 +71,7 @@ double HeadingSigmaDeg(
   // columns than one that moves twice as far, and yet both tell the same.
   std::array<std::vector<double>, kVariables> changes;
   const int columns = camera.width;
-  const int reach = static_cast<int>(std::ceil(kSpreadDeg * kRad * camera.fx));
+  const int reach = static_cast<int>(std::ceil(kSpreadDeg * kRadPerDeg * camera.fx));
   for (int v = 0; v < kVariables; ++v) {
     const auto k = static_cast<std::size_t>(v);
     std::vector<double> sums(static_cast<std::size_t>(columns) + 1, 0.0);

@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "base/angle.h"
 #include "base/error.h"
 #include "track/downhill_simplex.h"
 #include "track/skyline_certainty.h"
@@ -17,7 +18,6 @@
 namespace ridgeline {
 namespace {
 
-constexpr double kRad = std::numbers::pi / 180.0;
 // Share of a limit from which the result counts as lying on it.
 constexpr double kAtLimit = 0.98;
 // A model that nowhere rises above this elevation [rad] has no skyline to match.
@@ -74,7 +74,7 @@ Sector SectorOf(const Pose& start,
     for (const double y : {0.0, static_cast<double>(camera.height)}) {
       const Eigen::Vector3d ray = (world_from_cam * camera.RayFromImage({x, y})).normalized();
       // The tilt may grow by the limit: rays that steep can point anywhere.
-      if (std::asin(std::abs(ray.z())) > (85.0 - options.max_tilt_deg) * kRad) return sector;
+      if (std::asin(std::abs(ray.z())) > (85.0 - options.max_tilt_deg) * kRadPerDeg) return sector;
       half = std::max(half,
                       std::abs(std::remainder(std::atan2(ray.x(), ray.y()) - sector.center,
                                               2.0 * std::numbers::pi)));
@@ -84,7 +84,7 @@ Sector SectorOf(const Pose& start,
                            ? options.scan_heading_deg + 2.0 * options.heading_step_deg
                            : options.max_heading_deg;
   const double margin = std::min(reach, options.max_heading_deg) + 0.5 * options.max_tilt_deg;
-  sector.half_width = std::min(half + margin * kRad, sector.half_width);
+  sector.half_width = std::min(half + margin * kRadPerDeg, sector.half_width);
   return sector;
 }
 
@@ -120,14 +120,14 @@ class Matcher {
     const SkylineDrawing drawing(
         directions_, real_.camera(), pose.cam_from_world, kDrawingPrecisionPx);
     const PinholeCamera& camera = real_.camera();
-    const double px_per_deg = camera.fx * kRad;
+    const double px_per_deg = camera.fx * kRadPerDeg;
     const auto motion_of = [&](std::span<const double> v) {
       return SkylineDrawing::Motion{v[0], v[1], v[2]};
     };
     const auto distance = [&](std::span<const double> v) {
       ++evaluations_;
       drawing.Rows(motion_of(v), rows_);
-      const Offsets o{v[0] / px_per_deg, v[1] / px_per_deg, v[2] / kRad, 0.0, 0.0, 0.0};
+      const Offsets o{v[0] / px_per_deg, v[1] / px_per_deg, v[2] / kRadPerDeg, 0.0, 0.0, 0.0};
       return real_.DistanceOfRows(rows_) + SensorCost(o, options_);
     };
     std::vector<double> best{0.0, 0.0, 0.0};
@@ -141,7 +141,7 @@ class Matcher {
     for (int round = 0; round < options_.rounds; ++round, scale *= options_.shrink) {
       const double x = scale * options_.heading_step_deg * px_per_deg;
       const double y = scale * options_.pitch_step_deg * px_per_deg;
-      const double turn = scale * options_.roll_step_deg * kRad;
+      const double turn = scale * options_.roll_step_deg * kRadPerDeg;
       if (round == 0) rounds.push_back({x, y, 0.0});
       rounds.push_back({x, y, turn});
     }
@@ -279,64 +279,31 @@ bool AtLimit(const Pose& start, const Pose& pose, const SkylineMatchOptions& opt
 }  // namespace
 
 void SkylineMatchOptions::Visit(OptionVisitor& v) {
-  v.Field("method", method);
+  v.Field("method", method, OneOf{{"2d", "2x2d", "3d", "6dof"}});
   v.Field("linear_angles", linear_angles);
-  v.Field("scan_heading_deg", scan_heading_deg);
-  v.Field("scan_pitch_deg", scan_pitch_deg);
-  v.Field("scan_step_deg", scan_step_deg);
-  v.Field("heading_step_deg", heading_step_deg);
-  v.Field("pitch_step_deg", pitch_step_deg);
-  v.Field("roll_step_deg", roll_step_deg);
-  v.Field("position_step_m", position_step_m);
-  v.Field("height_step_m", height_step_m);
-  v.Field("rounds", rounds);
-  v.Field("shrink", shrink);
-  v.Field("max_evaluations", max_evaluations);
+  v.Field("scan_heading_deg", scan_heading_deg, NotNegative());
+  v.Field("scan_pitch_deg", scan_pitch_deg, NotNegative());
+  v.Field("scan_step_deg", scan_step_deg, Positive());
+  v.Field("heading_step_deg", heading_step_deg, Positive());
+  v.Field("pitch_step_deg", pitch_step_deg, Positive());
+  v.Field("roll_step_deg", roll_step_deg, Positive());
+  v.Field("position_step_m", position_step_m, Positive());
+  v.Field("height_step_m", height_step_m, Positive());
+  v.Field("rounds", rounds, AtLeast(1));
+  v.Field("shrink", shrink, Open(0.0, 1.0));
+  v.Field("max_evaluations", max_evaluations, AtLeast(1));
   v.Field("free_height", free_height);
-  v.Field("sensor_weight_px", sensor_weight_px);
-  v.Field("heading_sigma_deg", heading_sigma_deg);
-  v.Field("tilt_sigma_deg", tilt_sigma_deg);
-  v.Field("position_sigma_m", position_sigma_m);
-  v.Field("height_sigma_m", height_sigma_m);
-  v.Field("max_distance_px", max_distance_px);
-  v.Field("ambiguous_ratio", ambiguous_ratio);
-  v.Field("max_heading_sigma_deg", max_heading_sigma_deg);
-  v.Field("max_heading_deg", max_heading_deg);
-  v.Field("max_tilt_deg", max_tilt_deg);
-  v.Field("max_shift_m", max_shift_m);
-}
-
-void SkylineMatchOptions::Validate() const {
-  SkylineMatchNamed(method);
-  const auto require = [](bool ok, const char* name, double value, const char* expected) {
-    if (!ok) {
-      throw InputError("", std::string("match.") + name, std::to_string(value), expected);
-    }
-  };
-  require(scan_heading_deg >= 0.0, "scan_heading_deg", scan_heading_deg, "at least 0");
-  require(scan_pitch_deg >= 0.0, "scan_pitch_deg", scan_pitch_deg, "at least 0");
-  const std::pair<const char*, double> positive[] = {
-      {"scan_step_deg", scan_step_deg},
-      {"heading_step_deg", heading_step_deg},
-      {"pitch_step_deg", pitch_step_deg},
-      {"roll_step_deg", roll_step_deg},
-      {"position_step_m", position_step_m},
-      {"height_step_m", height_step_m},
-      {"heading_sigma_deg", heading_sigma_deg},
-      {"tilt_sigma_deg", tilt_sigma_deg},
-      {"position_sigma_m", position_sigma_m},
-      {"height_sigma_m", height_sigma_m},
-      {"max_distance_px", max_distance_px},
-      {"max_heading_sigma_deg", max_heading_sigma_deg},
-      {"max_heading_deg", max_heading_deg},
-      {"max_tilt_deg", max_tilt_deg},
-      {"max_shift_m", max_shift_m}};
-  for (const auto& [name, value] : positive) require(value > 0.0, name, value, "more than 0");
-  require(sensor_weight_px >= 0.0, "sensor_weight_px", sensor_weight_px, "at least 0");
-  require(rounds >= 1, "rounds", rounds, "at least 1");
-  require(shrink > 0.0 && shrink < 1.0, "shrink", shrink, "(0, 1)");
-  require(max_evaluations >= 1, "max_evaluations", max_evaluations, "at least 1");
-  require(ambiguous_ratio >= 0.0, "ambiguous_ratio", ambiguous_ratio, "at least 0");
+  v.Field("sensor_weight_px", sensor_weight_px, NotNegative());
+  v.Field("heading_sigma_deg", heading_sigma_deg, Positive());
+  v.Field("tilt_sigma_deg", tilt_sigma_deg, Positive());
+  v.Field("position_sigma_m", position_sigma_m, Positive());
+  v.Field("height_sigma_m", height_sigma_m, Positive());
+  v.Field("max_distance_px", max_distance_px, Positive());
+  v.Field("ambiguous_ratio", ambiguous_ratio, NotNegative());
+  v.Field("max_heading_sigma_deg", max_heading_sigma_deg, Positive());
+  v.Field("max_heading_deg", max_heading_deg, Positive());
+  v.Field("max_tilt_deg", max_tilt_deg, Positive());
+  v.Field("max_shift_m", max_shift_m, Positive());
 }
 
 SkylineMatch SkylineMatchNamed(const std::string& name) {

@@ -68,8 +68,6 @@ struct SkylineMatchOptions {
   double max_shift_m = 20.0;
 
   void Visit(OptionVisitor& v);
-  // Throws InputError naming the field, e.g. "match.rounds".
-  void Validate() const;
 };
 
 // Throws InputError for another name.

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "base/angle.h"
 #include "skyline/clean_skyline.h"
 
 namespace ridgeline {
@@ -70,13 +70,12 @@ Eigen::Quaterniond RotationAfter(const SkylineDrawing::Motion& motion,
 Eigen::Quaterniond RotationAfterLinear(const SkylineDrawing::Motion& motion,
                                        const PinholeCamera& camera,
                                        const Eigen::Quaterniond& cam_from_world) {
-  constexpr double kDeg = 180.0 / std::numbers::pi;
   const double fov_x = 2.0 * std::atan(0.5 * camera.width / camera.fx);
   const double fov_y = 2.0 * std::atan(0.5 * camera.height / camera.fy);
   ViewAngles angles = ViewAnglesOf(cam_from_world);
-  angles.heading_deg -= motion.x_px * fov_x / camera.width * kDeg;
-  angles.pitch_deg += motion.y_px * fov_y / camera.height * kDeg;
-  angles.roll_deg -= motion.turn_rad * kDeg;
+  angles.heading_deg -= motion.x_px * fov_x / camera.width * kDegPerRad;
+  angles.pitch_deg += motion.y_px * fov_y / camera.height * kDegPerRad;
+  angles.roll_deg -= motion.turn_rad * kDegPerRad;
   return CamFromWorld(angles);
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 
-#include "base/error.h"
 #include "track/rendered_skyline.h"
 
 namespace ridgeline {
@@ -29,38 +28,19 @@ SkylineTrackOptions::SkylineTrackOptions() {
 }
 
 void SkylineTrackOptions::Visit(OptionVisitor& v) {
-  v.Field("extractor", extractor);
-  v.Field("virtual_skyline", virtual_skyline);
-  v.Field("start", start);
-  v.Field("keyframe_every", keyframe_every);
+  v.Field("extractor", extractor, OneOf{{"path", "canny", "file"}});
+  v.Field("virtual_skyline", virtual_skyline, OneOf{{"exact", "rendered"}});
+  v.Field("start", start, OneOf{{"sensors", "last"}});
+  v.Field("keyframe_every", keyframe_every, NotNegative());
   v.Group("skyline", [&](OptionVisitor& g) { skyline.Visit(g); });
   v.Group("canny", [&](OptionVisitor& g) { canny.Visit(g); });
   v.Group("l1", [&](OptionVisitor& g) { l1.Visit(g); });
   v.Group("match", [&](OptionVisitor& g) { match.Visit(g); });
 }
 
-void SkylineTrackOptions::Validate() const {
-  if (extractor != "path" && extractor != "canny" && extractor != "file") {
-    throw InputError("", "extractor", '"' + extractor + '"', "path, canny or file");
-  }
-  if (virtual_skyline != "exact" && virtual_skyline != "rendered") {
-    throw InputError("", "virtual_skyline", '"' + virtual_skyline + '"', "exact or rendered");
-  }
-  if (start != "sensors" && start != "last") {
-    throw InputError("", "start", '"' + start + '"', "sensors or last");
-  }
-  if (keyframe_every < 0) {
-    throw InputError("", "keyframe_every", std::to_string(keyframe_every), "at least 0");
-  }
-  skyline.Validate();
-  canny.Validate();
-  l1.Validate();
-  match.Validate();
-}
-
 SkylineTracker::SkylineTracker(const Scene& scene, const SkylineTrackOptions& options)
     : scene_(scene), options_(options) {
-  options_.Validate();
+  CheckOptions(options_);
 }
 
 Pose SkylineTracker::Apply(const Correction& correction, const Pose& sensors) {

@@ -34,8 +34,6 @@ struct SkylineTrackOptions {
 
   SkylineTrackOptions();
   void Visit(OptionVisitor& v);
-  // Throws InputError naming the field, e.g. "start".
-  void Validate() const;
 };
 
 // Milliseconds of one frame.

@@ -34,8 +34,6 @@ struct TrackOptions {
   double lost_radius_m = 40.0;
 
   void Visit(OptionVisitor& v);
-  // Throws InputError naming the field, e.g. "track.start_m".
-  void Validate() const;
 };
 
 }  // namespace ridgeline

@@ -7,15 +7,15 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <string>
 
-#include "base/error.h"
+#include "base/angle.h"
+#include "camera/local_frame.h"
+
 
 namespace ridgeline {
 namespace {
 
-constexpr double kRad = std::numbers::pi / 180.0;
 constexpr int kRounds = 3;
 // Bells farther from the trajectory than this many deviations are not of it.
 constexpr double kGate = 6.0;
@@ -23,7 +23,7 @@ constexpr double kGate = 6.0;
 // cam_from_world * v of a pose vector, as CamFromWorld(ViewAngles).
 template <typename T>
 Eigen::Matrix<T, 3, 3> RotationOf(const T* pose) {
-  const T h = pose[3] * T(kRad), p = -pose[4] * T(kRad), r = -pose[5] * T(kRad);
+  const T h = pose[3] * T(kRadPerDeg), p = -pose[4] * T(kRadPerDeg), r = -pose[5] * T(kRadPerDeg);
   using std::cos;
   using std::sin;
   Eigen::Matrix<T, 3, 3> level, pitch, roll;
@@ -47,7 +47,7 @@ struct StepResidual {
         step_root.cast<T>() * (r_before * step - motion.step_in_before.cast<T>());
     const Eigen::Matrix<T, 3, 3> turn = r_now * r_before.transpose() *
                                         motion.now_from_before.toRotationMatrix().transpose().cast<T>();
-    const T factor = T(0.5 / (kRad * motion.sigma_deg));
+    const T factor = T(0.5 / (kRadPerDeg * motion.sigma_deg));
     for (int k = 0; k < 3; ++k) residual[k] = off(k);
     residual[3] = factor * (turn(2, 1) - turn(1, 2));
     residual[4] = factor * (turn(0, 2) - turn(2, 0));
@@ -92,7 +92,7 @@ class StretchSmoother {
   StretchSmoother(std::span<const TrackFrame> frames,
                   const Eigen::Vector3d& origin,
                   const SmootherOptions& options)
-      : frames_(frames), origin_(origin), options_(options), poses_(frames.size()) {}
+      : frames_(frames), local_{origin}, options_(options), poses_(frames.size()) {}
 
   // False: nothing of the stretch was tracked.
   bool Begin() {
@@ -100,9 +100,7 @@ class StretchSmoother {
     bool any = false;
     for (std::size_t i = 0; i < frames_.size(); ++i) {
       if (frames_[i].state != TrackState::kTracking || !frames_[i].pose) continue;
-      Pose local = *frames_[i].pose;
-      local.center_in_world -= origin_;
-      poses_[i] = VectorOf(local);
+      poses_[i] = VectorOf(local_.FromWorld(*frames_[i].pose));
       known[i] = any = true;
     }
     if (!any) return false;
@@ -147,8 +145,7 @@ class StretchSmoother {
     std::vector<std::optional<SmoothedPose>> results;
     for (const PoseVector& pose : poses_) {
       SmoothedPose smoothed;
-      smoothed.pose = PoseOf(pose);
-      smoothed.pose.center_in_world += origin_;
+      smoothed.pose = local_.ToWorld(PoseOf(pose));
       Eigen::Matrix<double, 6, 6, Eigen::RowMajor> block;
       if (!is_known || !covariance.GetCovarianceBlock(pose.data(), pose.data(), block.data())) {
         results.emplace_back();
@@ -217,7 +214,7 @@ class StretchSmoother {
   }
 
   std::span<const TrackFrame> frames_;
-  Eigen::Vector3d origin_;
+  LocalFrame local_;
   SmootherOptions options_;
   std::vector<PoseVector> poses_;
   std::unique_ptr<ceres::Problem> problem_;
@@ -226,20 +223,9 @@ class StretchSmoother {
 }  // namespace
 
 void SmootherOptions::Visit(OptionVisitor& v) {
-  v.Field("floor_m", floor_m);
-  v.Field("floor_deg", floor_deg);
-  v.Field("evidence_factor", evidence_factor);
-}
-
-void SmootherOptions::Validate() const {
-  const auto require = [](bool valid, const char* field, double found, const char* expected) {
-    if (!valid) {
-      throw InputError("", std::string("smoother.") + field, std::to_string(found), expected);
-    }
-  };
-  require(floor_m > 0.0, "floor_m", floor_m, "more than 0");
-  require(floor_deg > 0.0, "floor_deg", floor_deg, "more than 0");
-  require(evidence_factor >= 1.0, "evidence_factor", evidence_factor, "at least 1");
+  v.Field("floor_m", floor_m, Positive());
+  v.Field("floor_deg", floor_deg, Positive());
+  v.Field("evidence_factor", evidence_factor, AtLeast(1.0));
 }
 
 std::vector<std::optional<SmoothedPose>> Smooth(std::span<const TrackFrame> frames,

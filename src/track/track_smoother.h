@@ -19,8 +19,6 @@ struct SmootherOptions {
   double evidence_factor = 1.5;
 
   void Visit(OptionVisitor& v);
-  // Throws InputError naming the field, e.g. "smoother.floor_m".
-  void Validate() const;
 };
 
 struct SmoothedPose {

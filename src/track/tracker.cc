@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/error.h"
+#include "camera/local_frame.h"
 
 namespace ridgeline {
 namespace {
@@ -111,7 +112,7 @@ Tracker::Tracker(const Localizer& localizer,
       filter_(options.filter),
       monitor_(options.gnss),
       scale_sigma_(options.scale_sigma) {
-  options.Validate();
+  CheckOptions(options, "track");
 }
 
 PoseRegion Tracker::RegionAround(const Eigen::Vector2d& center, double half_m) const {
@@ -445,13 +446,11 @@ void Tracker::Decide(const PoseBelief& belief, TrackFrame& frame) {
   frame.confidence =
       std::min(frame.confidence, belief.main.mass * Probability(log_odds_));
   frame.state = state_;
-  Pose pose = PoseOf(belief.main.mean);
-  pose.center_in_world += origin;
   if (is_lost) {
     frame.state = TrackState::kLost;
     frame.confidence = 0.0;
   } else {
-    frame.pose = pose;
+    frame.pose = LocalFrame{origin}.ToWorld(PoseOf(belief.main.mean));
   }
   if (state_ == TrackState::kTracking) {
     frame.protection = ProtectionLevel{

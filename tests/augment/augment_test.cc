@@ -110,7 +110,7 @@ TEST_F(MeshFiles, NothingAboveTheFolderIsReadAndWhatIsMissingIsNamed) {
   Write("wall.mtl", "newmtl brick\nKd 1 1 1\nmap_Kd ../../secret.png\nnewmtl glass\nmap_Kd none.png\n");
   const TexturedMesh mesh = ReadTexturedMesh(folder_ / "quad.obj", false);
   ASSERT_EQ(mesh.warnings.size(), 2u);
-  for (const Material& material : mesh.materials) EXPECT_TRUE(material.texture.empty());
+  for (const MeshMaterial& material : mesh.materials) EXPECT_TRUE(material.texture.empty());
   EXPECT_THROW(ReadTexturedMesh(folder_ / "none.obj", false), InputError);
   Write("empty.obj", "v 0 0 0\n");
   EXPECT_THROW(ReadTexturedMesh(folder_ / "empty.obj", false), InputError);

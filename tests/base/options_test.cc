@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "base/error.h"
 
 namespace ridgeline {
@@ -13,8 +15,9 @@ struct Inner {
   int count = 3;
   std::vector<double> weights = {1.0, 2.0};
   void Visit(OptionVisitor& v) {
-    v.Field("count", count);
-    v.Field("weights", weights);
+    v.Field("count", count, AtLeast(1));
+    v.Field("weights", weights, Open(0.0, 10.0));
+    v.Rule("weights", !weights.empty(), "no weights", "at least one");
   }
 };
 
@@ -24,9 +27,9 @@ struct Outer {
   std::string detector = "lsd";
   Inner inner;
   void Visit(OptionVisitor& v) {
-    v.Field("length_px", length_px);
+    v.Field("length_px", length_px, Positive());
     v.Field("merge", merge);
-    v.Field("detector", detector);
+    v.Field("detector", detector, OneOf{{"lsd", "fld", "edlines"}});
     v.Group("inner", [this](OptionVisitor& g) { inner.Visit(g); });
   }
 };
@@ -89,6 +92,48 @@ TEST(Options, SetReachesNestedFieldsAndBareWords) {
   SetOption("detector=edlines", Visitor(options));
   EXPECT_THAT(options.inner.weights, testing::ElementsAre(4.0, 5.0, 6.0));
   EXPECT_EQ(options.detector, "edlines");
+}
+
+TEST(Options, ValuesOutOfRangeAreNamedWithTheirPath) {
+  const auto message = [](const std::string& assignment) {
+    Outer options;
+    SetOption(assignment, Visitor(options));
+    return MessageOf([&] { CheckOptions(options, "outer"); });
+  };
+  EXPECT_EQ(message("merge=true"), "no error");
+  EXPECT_EQ(message("length_px=0"), "outer.length_px: got 0, expected > 0");
+  EXPECT_EQ(message("inner.count=-3"), "outer.inner.count: got -3, expected >= 1");
+  EXPECT_EQ(message("inner.weights=[1,10]"), "outer.inner.weights: got 10, expected (0, 10)");
+  EXPECT_EQ(message("detector=sobel"),
+            "outer.detector: got \"sobel\", expected lsd, fld or edlines");
+  EXPECT_EQ(message("inner.weights=[]"),
+            "outer.inner.weights: got no weights, expected at least one");
+}
+
+TEST(Options, RangesAreListed) {
+  Outer options;
+  EXPECT_EQ(OptionsWithRanges(Visitor(options)),
+            "length_px      25.0       > 0\n"
+            "merge          false      true or false\n"
+            "detector       \"lsd\"      lsd, fld or edlines\n"
+            "inner.count    3          >= 1, whole\n"
+            "inner.weights  [1.0,2.0]  each (0, 10)\n");
+}
+
+TEST(NumberRange, HoldsWhatItsTextSays) {
+  const double nan = std::nan("");
+  EXPECT_TRUE(Closed(0.0, 1.0).Holds(0.0) && Closed(0.0, 1.0).Holds(1.0));
+  EXPECT_FALSE(Closed(0.0, 1.0).Holds(1.0001) || Closed(0.0, 1.0).Holds(nan));
+  EXPECT_FALSE(Open(0.0, 1.0).Holds(0.0) || Open(0.0, 1.0).Holds(1.0));
+  EXPECT_TRUE(LeftOpen(0.0, 1.0).Holds(1.0) && RightOpen(0.0, 1.0).Holds(0.0));
+  EXPECT_FALSE(LeftOpen(0.0, 1.0).Holds(0.0) || RightOpen(0.0, 1.0).Holds(1.0));
+  EXPECT_TRUE(AnyNumber().Holds(-1e300));
+  EXPECT_FALSE(AnyNumber().Holds(nan) || AnyNumber().Holds(INFINITY));
+  EXPECT_FALSE(Positive().Holds(nan) || Positive().Holds(0.0));
+  EXPECT_EQ(LeftOpen(0.0, 90.0).Text(), "(0, 90]");
+  EXPECT_EQ(RightOpen(1e-6, 10000000.0).Text(), "[1e-06, 10000000)");
+  EXPECT_EQ(MoreThan(3.0, "canny_low").Text(), "> canny_low");
+  EXPECT_EQ(AnyNumber().Text(), "any number");
 }
 
 TEST(Options, BrokenJsonNamesThePlace) {

@@ -165,7 +165,7 @@ TEST(CityErrors, OptionsOutOfRange) {
   CityOptions options;
   options.weld_m = -1.0;
   EXPECT_THAT(ErrorOf(GmlDocument(Box()), "model.gml", options),
-              HasSubstr("city.weld_m: got -1, expected 1e-06 to 0.5"));
+              HasSubstr("city.weld_m: got -1, expected [1e-06, 0.5]"));
   options = {};
   options.model_crs = "UTM";
   EXPECT_THAT(ErrorOf(GmlDocument(Box()), "model.gml", options),

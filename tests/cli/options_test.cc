@@ -265,7 +265,9 @@ const std::map<std::string, std::map<std::string, std::string>>& Cases() {
         {"--set", "--set town.block_m=70"},
         {"--overwrite", "--overwrite --out {in}"}}},
       {"options",
-       {{"--config", "--config {in}/config.json"}, {"--set", "--set search.heading_deg=5"}}},
+       {{"--config", "--config {in}/config.json"},
+        {"--set", "--set search.heading_deg=5"},
+        {"--ranges", "--ranges"}}},
       {"completion", {{"what", "--=completion zsh"}, {"--out", "--out {out}"}}}};
   return cases;
 }
@@ -491,7 +493,8 @@ TEST(IdleOptions, AreRefusedWithWhatWouldMakeThemWork) {
       message(
           {"search.method=sampler", "search.sampler.name=tpe", "search.sampler.tpe.candidates=3"}),
       "");
-  EXPECT_THAT(message({"search.method=sampler", "search.map.tilts=1"}), HasSubstr("is sampler"));
+  EXPECT_THAT(message({"search.method=sampler", "search.map.spacing_m=1"}), HasSubstr("is sampler"));
+  EXPECT_EQ(message({"search.method=sampler", "search.map.modes=3"}), "");
   EXPECT_THAT(message({"score.gradient.sigma_width=0.002"}), HasSubstr("score.name=gradient"));
   EXPECT_EQ(message({"search.east_m=5", "score.name=gradient"}), "");
 }

@@ -6,14 +6,18 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "base/atomic_file.h"
+#include "base/option_groups.h"
 #include "base/options.h"
 #include "camera/pose.h"
 #include "cli/in_process.h"
 #include "localize/localizer_options.h"
+#include "optim/sampler_table.h"
+#include "score/score_table.h"
 
 namespace ridgeline::testing {
 namespace {
@@ -48,21 +52,12 @@ std::vector<std::string> With(std::vector<std::string> assignments, const std::s
   return assignments;
 }
 
-// What makes the keys below a prefix work; the longest prefix counts.
-const std::map<std::string, std::vector<std::string>>& Companions() {
-  static const auto scored = [](const std::string& score) { return Sampled("sobol", 8, score); };
+// What makes the keys below a prefix work; the longest prefix counts. For a group of options of a
+// score or a sampler it is by itself its first user.
+const std::map<std::string, std::vector<std::string>>& SpecialCompanions() {
   static const std::map<std::string, std::vector<std::string>> companions = {
       {"", {kFewModes}},
       {"lines.canny_", {kFewModes, "lines.detector=hough"}},
-      {"score.line_energy.", scored("line_energy")},
-      {"score.areas.", scored("areas")},
-      {"score.rays.", scored("line_energy_rays")},
-      {"score.oriented_chamfer.", scored("oriented_chamfer")},
-      {"score.gradient.", scored("gradient")},
-      {"score.unexplained.", scored("unexplained")},
-      {"score.zbuffer_hough.", scored("line_energy_zbuffer")},
-      {"score.skyline.", scored("skyline_l1")},
-      {"score.skyline_l1.", scored("skyline_l1")},
       // The fit is kept then.
       {"search.refinement",
        {kFewModes,
@@ -91,8 +86,6 @@ const std::map<std::string, std::vector<std::string>>& Companions() {
       {"search.widenings", {kFewModes, "search.east_m=0.2", "search.north_m=0.2"}},
       {"search.evaluations", Sampled("sobol", 20)},
       {"search.sampler.", Sampled("sobol", 20)},
-      {"search.sampler.tpe.", Sampled("tpe", 40)},
-      {"search.sampler.gp.", Sampled("gp", 40)},
       {"search.sampler.cmaes.", Sampled("cmaes", 200)},
       {"search.sampler.de.", Sampled("de", 200)},
       {"search.sampler.gp_de.", Sampled("gp_de", 30)},
@@ -121,6 +114,32 @@ const std::map<std::string, std::vector<std::string>>& Companions() {
         "search.fit.max_loss=1000",
         "search.fit.max_move_m=5",
         "search.fit.max_turn_deg=9"}}};
+  return companions;
+}
+
+// The groups of the plug-ins of a table with the first that declares each.
+template <typename Plugin>
+std::map<std::string, std::string> FirstUsers(std::span<const Plugin* const> table) {
+  std::map<std::string, std::string> users;
+  for (const Plugin* plugin : table) {
+    OptionGroups groups;
+    plugin->declare(groups);
+    for (const std::string& group : groups.Names()) users.emplace(group, plugin->name);
+  }
+  return users;
+}
+
+const std::map<std::string, std::vector<std::string>>& Companions() {
+  static const auto companions = [] {
+    auto all = SpecialCompanions();
+    for (const auto& [group, score] : FirstUsers(ScoreTable())) {
+      all.emplace("score." + group + ".", Sampled("sobol", 8, score));
+    }
+    for (const auto& [group, sampler] : FirstUsers(SamplerTable())) {
+      all.emplace("search.sampler." + group + ".", Sampled(sampler, 40));
+    }
+    return all;
+  }();
   return companions;
 }
 

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 
 #include "convert/colmap_model.h"
+#include "convert/dataset_formats.h"
 #include "convert/dataset_json.h"
-#include "convert/formats.h"
 #include "convert_test_folder.h"
 
 namespace ridgeline {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "convert/formats.h"
+#include "convert/dataset_formats.h"
 #include "convert_test_folder.h"
 
 namespace ridgeline {

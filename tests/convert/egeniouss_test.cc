@@ -7,7 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "camera/pose.h"
-#include "convert/formats.h"
+#include "convert/dataset_formats.h"
 #include "convert_test_folder.h"
 
 namespace ridgeline {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "convert/angle_table.h"
-#include "convert/formats.h"
+#include "convert/dataset_formats.h"
 #include "convert/globe_files.h"
 #include "convert/lod_loc.h"
 #include "convert/opensfm.h"
@@ -233,10 +233,10 @@ TEST_F(Convert, OmegaPhiKappaInTheOrderOfOtherPrograms) {
     EXPECT_NEAR(view.roll_deg, 0.0, 1e-9);
   }
   const Eigen::Matrix3d r = dataset.queries[4].truth->cam_from_world.toRotationMatrix();
-  EXPECT_TRUE(r.row(0).isApprox(
-      Eigen::RowVector3d(0.288501404269, 0.757115012377, 0.586126093744), 1e-10));
-  EXPECT_TRUE(r.row(2).isApprox(
-      Eigen::RowVector3d(0.605293988043, 0.330096651592, -0.724330993847), 1e-10));
+  EXPECT_TRUE(
+      r.row(0).isApprox(Eigen::RowVector3d(0.288501404269, 0.757115012377, 0.586126093744), 1e-10));
+  EXPECT_TRUE(r.row(2).isApprox(Eigen::RowVector3d(0.605293988043, 0.330096651592, -0.724330993847),
+                                1e-10));
 }
 
 TEST_F(Convert, BadTablesNameFileAndLine) {

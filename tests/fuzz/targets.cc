@@ -25,7 +25,7 @@
 #include "city/store/building_blob.h"
 #include "city/terrain.h"
 #include "convert/camera_file.h"
-#include "convert/formats.h"
+#include "convert/dataset_formats.h"
 #include "eval/bench_files.h"
 #include "input/dataset.h"
 #include "input/read_picture.h"

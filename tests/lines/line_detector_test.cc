@@ -102,15 +102,16 @@ TEST(LineDetectionOptions, BadValuesAreNamed) {
   LineDetectionOptions options;
   options.detector = "sobel";
   try {
-    options.Validate();
+    CheckOptions(options, "lines");
     FAIL() << "nothing thrown";
   } catch (const InputError& e) {
-    EXPECT_STREQ(e.what(),
-                 "lines.detector: got \"sobel\", expected lsd, edlines, fld, hough or file");
+    std::string names;
+    for (const std::string& name : DetectorNames()) names += (names.empty() ? "" : ", ") + name;
+    EXPECT_EQ(e.what(), "lines.detector: got \"sobel\", expected " + names + " or file");
   }
   options = {};
   options.min_length_px = 0.0;
-  EXPECT_THROW(options.Validate(), InputError);
+  EXPECT_THROW(CheckOptions(options), InputError);
 }
 
 TEST(DetectorTable, ANameThatIsTakenIsRefused) {

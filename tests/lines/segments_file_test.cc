@@ -6,6 +6,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/limits.h"
 
 namespace ridgeline {
 namespace {
@@ -50,6 +51,12 @@ TEST(ReadSegments, BadLinesAreNamedByNumber) {
       EXPECT_NE(std::string(e.what()).find("line 2"), std::string::npos) << e.what();
     }
   }
+}
+
+TEST(ReadSegments, MoreThanAPictureHasAreRefused) {
+  std::string text;
+  for (std::size_t i = 0; i <= limits::kSegments; ++i) text += "1 2 3 4\n";
+  EXPECT_THROW(ReadSegments(Write(text), kPinhole), InputError);
 }
 
 }  // namespace

@@ -179,7 +179,7 @@ TEST(ZbufferHough, ValidateNamesTheField) {
   ZbufferHoughOptions options;
   options.votes = 0;
   try {
-    options.Validate();
+    CheckOptions(options, "zbuffer_hough");
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_EQ(error.field(), "zbuffer_hough.votes");

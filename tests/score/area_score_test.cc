@@ -131,7 +131,7 @@ TEST(AreaOptions, BadValuesAreNamed) {
     AreaOptions options;
     change(options);
     try {
-      options.Validate();
+      CheckOptions(options, "score.areas");
     } catch (const InputError& e) {
       return e.what();
     }

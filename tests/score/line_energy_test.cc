@@ -117,8 +117,8 @@ TEST(LineEnergyOptions, PixelsGoBeforeTheShareOfTheWidth) {
 }
 
 TEST(LineEnergyOptions, BadValuesAreErrors) {
-  EXPECT_THROW((LineEnergyOptions{0.0, 0.01}.Validate()), InputError);
-  EXPECT_THROW((LineEnergyOptions{5.0, 0.0}.Validate()), InputError);
+  EXPECT_THROW(CheckOptions(LineEnergyOptions{0.0, 0.01}), InputError);
+  EXPECT_THROW(CheckOptions(LineEnergyOptions{5.0, 0.0}), InputError);
 }
 
 }  // namespace

@@ -183,7 +183,7 @@ TEST(SkylineOptions, NamesTheBadField) {
   SkylineOptions options;
   options.region_weight = -1.0;
   try {
-    options.Validate();
+    CheckOptions(options, "skyline");
     FAIL();
   } catch (const InputError& error) {
     EXPECT_EQ(error.field(), "skyline.region_weight");

@@ -225,7 +225,7 @@ TEST(TownDataset, LargeTownsComeInTiles) {
 TEST(TownDatasetOptions, NameTheFieldThatIsWrong) {
   TownDatasetOptions options;
   options.width = 3;
-  EXPECT_THROW(options.Validate(), InputError);
+  EXPECT_THROW(CheckOptions(options), InputError);
 }
 
 }  // namespace

@@ -122,7 +122,7 @@ TEST(TownOptions, NameTheFieldThatIsWrong) {
   TownOptions options;
   options.block_m = 10.0;
   try {
-    options.Validate();
+    CheckOptions(options, "town");
     FAIL();
   } catch (const InputError& e) {
     EXPECT_THAT(e.what(), ::testing::HasSubstr("town.block_m"));

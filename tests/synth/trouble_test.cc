@@ -127,10 +127,10 @@ TEST(Trouble, FocalLengthsAreWrongWithinTheShare) {
 TEST(Trouble, BadOptionsAreNamed) {
   TroubleOptions options;
   options.roof_m = -1.0;
-  EXPECT_THROW(options.Validate(), InputError);
+  EXPECT_THROW(CheckOptions(options), InputError);
   options = {};
   options.lod = 3;
-  EXPECT_THROW(options.Validate(), InputError);
+  EXPECT_THROW(CheckOptions(options), InputError);
 }
 
 TEST(TownStyles, DifferInHeightAndAnUnknownOneIsNamed) {
@@ -146,7 +146,7 @@ TEST(TownStyles, DifferInHeightAndAnUnknownOneIsNamed) {
   EXPECT_LT(mean_storeys("village") + 1.0, mean_storeys("estate"));
   TownOptions options;
   options.style = "castle";
-  EXPECT_THROW(options.Validate(), InputError);
+  EXPECT_THROW(CheckOptions(options), InputError);
 }
 
 }  // namespace

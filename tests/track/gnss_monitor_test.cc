@@ -89,7 +89,7 @@ TEST(GnssMonitor, PassesOverTimesThatDoNotRise) {
 TEST(GnssMonitor, OptionsHaveRanges) {
   GnssMonitorOptions options;
   options.noise_m = 0.0;
-  EXPECT_THROW(options.Validate(), InputError);
+  EXPECT_THROW(CheckOptions(options), InputError);
 }
 
 }  // namespace

@@ -176,7 +176,7 @@ TEST(RotationAfterLinear, IsTheFieldOfViewPerPixel) {
 TEST(SkylineMatchOptions, UnknownMethodIsNamed) {
   SkylineMatchOptions options;
   options.method = "4d";
-  EXPECT_THROW(options.Validate(), InputError);
+  EXPECT_THROW(CheckOptions(options), InputError);
 }
 
 }  // namespace

@@ -22,12 +22,12 @@ struct MeshOptions {
   int threads = 0;
 
   void Visit(OptionVisitor& v) {
-    v.Field("lod", lod);
-    v.Field("min_dihedral_deg", min_dihedral_deg);
-    v.Field("weld_m", weld_m);
-    v.Field("adjoin_m", adjoin_m);
-    v.Field("joint_m", joint_m);
-    v.Field("threads", threads);
+    v.Field("lod", lod, Closed(1, 4));
+    v.Field("min_dihedral_deg", min_dihedral_deg, Closed(0.1, 170.0));
+    v.Field("weld_m", weld_m, Closed(1e-6, 0.5));
+    v.Field("adjoin_m", adjoin_m, Closed(1e-3, 1.0));
+    v.Field("joint_m", joint_m, Closed(0.0, 2.0));
+    v.Field("threads", threads, Closed(0, 4096));
   }
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/skyline.h"
+#include "cli/skyline_command.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "camera/local_frame.h"
 #include "cli/command.h"
 #include "cli/out_folder.h"
 #include "cli/progress.h"
@@ -175,11 +176,7 @@ cv::Mat ReadPicture(SequenceInput& input, std::size_t index) {
 
 SkylineFrameResult ResultOf(const SkylineFrame& frame,
                             const SequenceFrame& known,
-                            const Eigen::Vector3d& origin) {
-  const auto to_world = [&](Pose pose) {
-    pose.center_in_world += origin;
-    return pose;
-  };
+                            const LocalFrame& local) {
   SkylineFrameResult result;
   result.status = NameOf(frame.match.status);
   result.reason = frame.match.reason;
@@ -188,7 +185,7 @@ SkylineFrameResult ResultOf(const SkylineFrame& frame,
   result.at_best = frame.at_best;
   if (frame.match.evaluations > 0) result.heading_sigma_deg = frame.match.heading_sigma_deg;
   result.start = known.start;
-  if (frame.match.pose) result.pose = to_world(*frame.match.pose);
+  if (frame.match.pose) result.pose = local.ToWorld(*frame.match.pose);
   result.times = frame.times;
   return result;
 }
@@ -216,13 +213,12 @@ std::vector<SkylineFrameResult> Track(SequenceInput& input,
       const std::optional<Skyline> given = GivenSkyline(arguments, known, picture);
       if (tracker && known.camera && known.start) {
         camera = known.camera->Pinhole();
-        Pose start = *known.start;
-        start.center_in_world -= input.model->origin_in_world;
+        const LocalFrame local{input.model->origin_in_world};
+        const Pose start = local.FromWorld(*known.start);
         frame = tracker->Track(picture, camera, start, given ? &*given : nullptr);
-        result = ResultOf(frame, known, input.model->origin_in_world);
+        result = ResultOf(frame, known, local);
         if (known.truth) {
-          Pose truth = *known.truth;
-          truth.center_in_world -= input.model->origin_in_world;
+          const Pose truth = local.FromWorld(*known.truth);
           result.at_truth = tracker->DistancesAt(frame.skyline, camera, truth);
         }
       } else {
@@ -328,8 +324,7 @@ fs::path FolderOf(const fs::path& file) {
 
 int RunSkyline(SkylineArguments& arguments, const Context& context) {
   ApplyConfig(arguments.config, [&](OptionVisitor& v) { arguments.Visit(v); });
-  arguments.track.Validate();
-  arguments.sensors.Validate();
+  CheckVisited([&](OptionVisitor& v) { arguments.Visit(v); }, "");
   if ((arguments.track.extractor == "file") == arguments.skylines.empty()) {
     throw InputError("--skylines",
                      "",

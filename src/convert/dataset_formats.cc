@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "convert/formats.h"
+#include "convert/dataset_formats.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/study.h"
+#include "cli/study_command.h"
 
 #include <memory>
 

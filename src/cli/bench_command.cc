@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/bench.h"
+#include "cli/bench_command.h"
 
 #include <memory>
 
