@@ -7,6 +7,7 @@
 
 #include "base/decimals.h"
 #include "city/crs.h"
+#include "eval/distinct_modes.h"
 
 namespace ridgeline {
 namespace {
@@ -134,7 +135,7 @@ std::string PoseJson(const std::string& picture,
     json["goodness"] = JsonOf(localization, model);
   }
   json["modes"] = Json::array();
-  for (const PoseMode& mode : localization.modes) {
+  for (const PoseMode& mode : DistinctModes(localization.modes)) {
     const ViewAngles view = ViewAnglesOf(mode.pose.cam_from_world);
     json["modes"].push_back({{"position", JsonOf(mode.pose.center_in_world)},
                              {"heading_deg", Fine(view.heading_deg)},
