@@ -51,7 +51,7 @@
   const parts = [];
   if (summary.pair) {
     for (const outcome of outcomes) {
-      if (count(outcome)) parts.push(`${count(outcome)}: ${words[outcome]}`);
+      if (count(outcome)) parts.push(`${words[outcome]} on ${count(outcome)}`);
     }
     if (parts.length === 0) parts.push('no disagreement to show');
   } else if (withTruth > 0) {
@@ -76,6 +76,14 @@
     const box = make('div');
     box.append(make('dt', '', name), make('dd', '', value));
     $('facts').append(box);
+  }
+
+  // --- what stands before all else, e.g. the map of a track ---
+  if (summary.lead >= 0) {
+    const photo = read('photo-' + summary.lead);
+    const figure = make('figure', 'lead');
+    figure.append(Detail.image(photo, photo.name), make('figcaption', 'dim', photo.name));
+    $('verdict').append(figure);
   }
 
   // --- plots ---
@@ -153,7 +161,7 @@
     text.append(make('span', 'name', run.label), make('span', 'badge', sentenceOf(run)));
     const more = run.confidence === null ? [] : [`confidence ${run.confidence.toFixed(2)}`];
     if (run.set) more.unshift(run.set);
-    if (run.outcome === 'abstained' && run.reason) more.unshift(run.reason);
+    if ((run.outcome === 'abstained' || summary.pair) && run.reason) more.unshift(run.reason);
     const line = make('span', 'dim', more.join(' · '));
     line.style.display = 'block';
     text.append(line);
@@ -235,7 +243,8 @@
     $('about').append(details);
   };
   if (summary.warnings.length > 0) {
-    fold(`${summary.warnings.length} warnings`, table(summary.warnings.map((w) => [w]), ['']));
+    fold(summary.warnings.length === 1 ? '1 warning' : `${summary.warnings.length} warnings`,
+       table(summary.warnings.map((w) => [w]), ['']));
   }
   if (summary.command) fold('How to make this report again', make('pre', '', summary.command));
   if (summary.options) fold('Options', make('pre', '', summary.options));

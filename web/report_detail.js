@@ -51,13 +51,16 @@ const Detail = (() => {
     return img;
   };
 
-  const legend = (layers) => {
+  const glyphs = {square: '■', circle: '●', star: '★', diamond: '◆'};
+
+  // A line's sample, dashed, or the sign of a marker where an entry names one.
+  const legend = (entries) => {
     const list = make('ul', 'legend');
-    for (const layer of layers) {
+    for (const entry of entries) {
       const item = make('li');
-      const sample = make('i');
-      sample.style.background = layer.color;
-      item.append(sample, layer.name);
+      const sample = make('i', entry.dash ? 'dash' : entry.symbol ? 'sign' : '', glyphs[entry.symbol]);
+      sample.style.setProperty('--sample', entry.color);
+      item.append(sample, entry.name);
       list.append(item);
     }
     return list;
@@ -96,7 +99,7 @@ const Detail = (() => {
       range.value = pair ? 50 : 0;
       range.addEventListener('input', show);
       show();
-      row.append(right, range, left);
+      row.append(`${left}: left of the line`, range, `${right}: right of it`);
       box.append(row);
     }
     if (detail.priorLayers.length === 0 && detail.prior && !pair) {
@@ -134,7 +137,7 @@ const Detail = (() => {
       colorscale: 'Viridis', reversescale: true, opacity: 0.72, name: 'energy',
       showscale: innerWidth > 600, colorbar: {title: {text: 'energy'}, thickness: 10, len: 0.7},
       hoverongaps: false,
-      hovertemplate: '%{x:.1f} m E, %{y:.1f} m N: %{z:.3f}<extra>energy</extra>'};
+      hovertemplate: '%{x:.1f} m E, %{y:.1f} m N: %{z:.2g}<extra>energy</extra>'};
   };
 
   const footprintTrace = (rings) => {
@@ -188,7 +191,7 @@ const Detail = (() => {
     if (detail.footprints.length > 0) data.push(footprintTrace(detail.footprints));
     if (detail.map) data.push(energyTrace(detail.map));
     if (detail.box.length > 0) {
-      data.push(outline(detail.box, 'searched', {color: Plots.color('dim'), dash: 'dash', width: 1.5}));
+      data.push(outline(detail.box, 'search box', {color: Plots.color('dim'), dash: 'dash', width: 1.5}));
     }
     if (detail.ellipse) {
       data.push(outline(detail.ellipse, '95 % ellipse', {color: '#ff3d9a', width: 2}));
@@ -198,7 +201,7 @@ const Detail = (() => {
       data.push({x: places.map((p) => p[0]), y: places.map((p) => p[1]), name: 'other modes',
         mode: 'markers', marker: {symbol: 'diamond', size: 9, color: '#ffb000',
           line: {color: '#000', width: 1}},
-        text: detail.modes.slice(1).map((m) => m.energy.toFixed(3)),
+        text: detail.modes.slice(1).map((m) => m.energy.toPrecision(2)),
         hovertemplate: 'mode, energy %{text}<extra></extra>'});
     }
     if (detail.prior) {
@@ -224,8 +227,9 @@ const Detail = (() => {
   };
 
   // What the map's signs mean, below it.
-  const mapLegend = (data) => legend(data.map((trace) => ({name: trace.name,
-    color: trace.fillcolor || (trace.marker && trace.marker.color) || (trace.line && trace.line.color)}))
+  const mapLegend = (data) => legend(data.map(({name, fillcolor, marker, line}) => ({name,
+    color: fillcolor || (marker && marker.color) || (line && line.color),
+    symbol: fillcolor ? 'square' : marker && [marker.symbol].flat()[0], dash: line && line.dash}))
     .filter((entry) => entry.color));
 
   const tracePlot = (trace) => () => ({
@@ -258,8 +262,11 @@ const Detail = (() => {
     for (const [name, key] of [[first, 'prior'], [second, 'result'], ['truth', 'truth']]) {
       const pose = detail[key];
       if (!pose) continue;
-      rows.push([name, ...pose.position.map((v) => v.toFixed(2)), pose.hasHeading ? pose.heading.toFixed(2) + '°' : 'unknown',
-        pose.pitch.toFixed(2) + '°', pose.roll.toFixed(2) + '°']);
+      const [east, north, height] = pose.position.map((v) => v.toFixed(2));
+      const tilt = (angle) => angle.toFixed(2) + '°' + (pose.hasTilt ? '' : ' assumed');
+      rows.push([name, east, north, height + (pose.hasHeight ? '' : ' assumed'),
+        pose.hasHeading ? pose.heading.toFixed(2) + '°' : 'unknown',
+        tilt(pose.pitch), tilt(pose.roll)]);
     }
     return rows;
   };

@@ -9,7 +9,7 @@ const Plots = (() => {
     getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim();
 
   const axis = (title, extra) => Object.assign({
-    title: {text: title, font: {size: 13}}, gridcolor: color('line'), linecolor: color('line'),
+    title: {text: title, font: {size: 13}, standoff: 10}, gridcolor: color('line'), linecolor: color('line'),
     zerolinecolor: color('line'), automargin: true,
   }, extra);
 
@@ -119,17 +119,21 @@ const Plots = (() => {
   const names = {right: 'right', wrong: 'wrong', abstained: 'abstained'};
   const symbols = {right: 'circle', wrong: 'x', abstained: 'diamond-open'};
 
-  // One point per run with truth; a click opens the run.
+  const leastOf = (runs) => Math.min(1, ...runs.map((r) => r.energy).filter((e) => e > 0));
+  const log = {type: 'log', exponentformat: 'power'};
+
+  // One point per run with truth; a click opens the run. Energies of 0 stand beside the least above.
   const scatter = (runs, open) => () => ({
     data: Object.keys(names).map((outcome) => {
       const some = runs.filter((r) => r.outcome === outcome && r.translation !== null);
       return {name: names[outcome], mode: 'markers', x: some.map((r) => Math.max(r.translation, 0.01)),
-        y: some.map((r) => Math.max(r.energy, 1e-9)), text: some.map((r) => r.label),
+        y: some.map((r) => r.energy || leastOf(runs)), text: some.map((r) => r.label),
         customdata: some.map((r) => r.index),
         marker: {color: color(outcome), size: 9, symbol: symbols[outcome]},
         hovertemplate: '%{x:.2f} m, energy %{y:.2g}<extra></extra>'};
     }).filter((s) => s.x.length > 0),
-    layout: layout(axis('position error [m]', {type: 'log', dtick: 1}), axis('energy of the pose', {type: 'log', exponentformat: 'power'})),
+    layout: layout(axis('position error [m]', log), axis('energy of the pose', log),
+      {legend: {orientation: 'h', x: 0, y: 1.02, yanchor: 'bottom'}}),
     open,
   });
 
@@ -140,8 +144,8 @@ const Plots = (() => {
     layout: layout(
       axis(plot.x, plot.xNames.length > 0 ?
         {tickvals: plot.xNames.map((_, i) => i), ticktext: plot.xNames} :
-        plot.xLog ? {type: 'log'} : {}),
-      axis(plot.y, plot.yLog ? {type: 'log'} : {}), {legend: {orientation: 'h', x: 0, y: 1.02, yanchor: 'bottom'}}),
+        plot.xLog ? log : {}),
+      axis(plot.y, plot.yLog ? log : {rangemode: 'tozero'}), {legend: {orientation: 'h', x: 0, y: 1.02, yanchor: 'bottom'}}),
   });
 
   return {add, figure, forget, redraw, color, axis, layout, recall, reliability, scatter, generic};

@@ -34,6 +34,7 @@ ReportRun RunOf(const TrackRow& row) {
   run.status = NameOf(f.state);
   run.reason = f.reason;
   run.confidence = f.confidence;
+  run.energy = NAN;
   run.seconds = 1e-3 * f.milliseconds;
   if (f.pose) {
     run.result = PoseOf(*f.pose);
@@ -207,13 +208,11 @@ ReportData TrackReport::Make(std::span<const TrackRow> rows, const Localizer& lo
   AddPlots(rows, has_truth, data);
   const cv::Mat map = TrackMap(rows, localizer);
   if (!map.empty()) {
-    ReportRun run;
-    run.id = "map of the track";
-    run.status = "map";
-    run.confidence = NAN;
-    run.photo = 0;
-    data.photos.push_back({"map of the track", map, map.cols, map.rows});
-    data.runs.push_back(std::move(run));
+    data.lead = 0;
+    data.photos.push_back({"The way from above, north up; the corridor is the protection level.",
+                           map,
+                           map.cols,
+                           map.rows});
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     ReportRun run = RunOf(rows[i]);

@@ -76,6 +76,13 @@ std::vector<OverlayLayer> LayersOf(const TrackFrame& frame,
   return ModelEdgeLayers(localizer.scene(), camera.Pinhole(), local.FromWorld(*frame.pose));
 }
 
+// Of dataset.json its folder's name.
+std::string NameOfInput(const fs::path& input) {
+  const fs::path whole = fs::absolute(input).lexically_normal();
+  const bool is_dataset = whole.filename() == "dataset.json" || !whole.has_filename();
+  return (is_dataset ? whole.parent_path() : whole).filename().string();
+}
+
 class Session {
  public:
   Session(const TrackRequest& request, TrackWorld& world, const Context& context)
@@ -124,7 +131,7 @@ class Session {
     }
     if (request_.report.empty()) return;
     ReportData data = report_.Make(rows_, localizer_);
-    data.title = "Track of " + fs::path(request_.input.input).filename().string();
+    data.title = "Track of " + NameOfInput(request_.input.input);
     data.command = "ridgeline track " + request_.input.input;
     data.version = VersionText();
     data.crs = CrsName(world_.model.crs);

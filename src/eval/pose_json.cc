@@ -8,6 +8,7 @@
 #include "base/decimals.h"
 #include "camera/local_frame.h"
 #include "city/crs.h"
+#include "eval/distinct_modes.h"
 
 namespace ridgeline {
 namespace {
@@ -135,7 +136,7 @@ std::string PoseJson(const std::string& picture,
     json["goodness"] = JsonOf(localization, model);
   }
   json["modes"] = Json::array();
-  for (const PoseMode& mode : localization.modes) {
+  for (const PoseMode& mode : DistinctModes(localization.modes)) {
     const ViewAngles view = ViewAnglesOf(mode.pose.cam_from_world);
     json["modes"].push_back({{"position", JsonOf(mode.pose.center_in_world)},
                              {"heading_deg", Fine(view.heading_deg)},

@@ -10,6 +10,7 @@
 
 #include "camera/local_frame.h"
 #include "city/crs.h"
+#include "eval/distinct_modes.h"
 #include "input/prior_pose.h"
 #include "report/hillshade.h"
 #include "report/overlay_layers.h"
@@ -20,7 +21,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// The ground shown around the search box [m].
+// The ground shown around the search box [m]; a fifth of it around a map beyond that.
 constexpr double kMapMarginM = 15.0;
 // The longest side of a photo in a report [px].
 constexpr int kPhotoSidePx = 1400;
@@ -76,7 +77,7 @@ ReportOutcome OutcomeOf(const RunRecord& record) {
   return right ? ReportOutcome::kRight : ReportOutcome::kWrong;
 }
 
-// Box, hillshade and footprints of the ground around the prior.
+// Box around the prior; hillshade and footprints of the ground that is shown.
 void AddGround(const Localizer& localizer, const PoseSpaceOptions& ranges, ReportRun& run) {
   const Vector2d origin = localizer.scene().model().origin_in_world.head<2>();
   if (!run.prior && !run.result) return;
@@ -89,8 +90,13 @@ void AddGround(const Localizer& localizer, const PoseSpaceOptions& ranges, Repor
   }
 
   const Vector2d margin(kMapMarginM, kMapMarginM);
-  const Vector2d from = lower - margin;
-  const Vector2d to = upper + margin;
+  Vector2d from = lower - margin;
+  Vector2d to = upper + margin;
+  if (run.map) {  // a search that went further
+    const Vector2d size(run.map->columns - 1, run.map->rows - 1);
+    from = from.cwiseMin(run.map->first - 0.2 * margin);
+    to = to.cwiseMax(run.map->first + run.map->spacing_m * size + 0.2 * margin);
+  }
   if (localizer.dtm() != nullptr) {
     run.hillshade =
         ReportHillshade{Hillshade(*localizer.dtm(), from - origin, to - origin, 160), from, to};
@@ -118,6 +124,22 @@ ReportEnergyMap MapOf(const EnergyMap& map) {
   return {map.first, map.spacing_m, map.columns, map.rows, map.energies};
 }
 
+// A search that goes further has its stages several times.
+std::vector<StageTime> TimesByStage(const std::vector<StageTime>& times) {
+  std::vector<StageTime> stages;
+  for (const StageTime& time : times) {
+    const auto same = std::find_if(stages.begin(), stages.end(), [&](const StageTime& stage) {
+      return stage.name == time.name;
+    });
+    if (same == stages.end()) {
+      stages.push_back(time);
+    } else {
+      same->seconds += time.seconds;
+    }
+  }
+  return stages;
+}
+
 std::vector<std::pair<std::string, std::string>> FactsOf(const BenchRun& run) {
   const Localization& localization = run.localization;
   std::vector<std::pair<std::string, std::string>> facts = {
@@ -130,7 +152,7 @@ std::vector<std::pair<std::string, std::string>> FactsOf(const BenchRun& run) {
     facts.emplace_back("poses evaluated", std::to_string(localization.evaluations));
     facts.emplace_back("time", Text("%.2f s", run.record.seconds));
   }
-  for (const StageTime& stage : localization.times) {
+  for (const StageTime& stage : TimesByStage(localization.times)) {
     facts.emplace_back("… " + stage.name, Text("%.2f s", stage.seconds));
   }
   if (localization.pose && !run.is_given) {
@@ -138,7 +160,7 @@ std::vector<std::pair<std::string, std::string>> FactsOf(const BenchRun& run) {
                        Text("%.2f°", localization.spread.heading_sigma_deg));
   }
   if (localization.goodness.is_known()) {
-    facts.emplace_back("edges seen, of what a right pose shows",
+    facts.emplace_back("edges seen, against what is usual at a right pose",
                        Text("%.0f %%", 100.0 * localization.goodness.explained()));
   }
   if (localization.protection) {
@@ -152,25 +174,6 @@ std::vector<std::pair<std::string, std::string>> FactsOf(const BenchRun& run) {
   return facts;
 }
 
-// Modes nearer to a better one than this are the same answer to whoever looks at a map.
-constexpr double kSameModeM = 2.0;
-constexpr double kSameModeDeg = 2.0;
-
-std::vector<ReportMode> DistinctModes(const std::vector<PoseMode>& modes) {
-  std::vector<const PoseMode*> distinct;
-  std::vector<ReportMode> report;
-  for (const PoseMode& mode : modes) {  // best first
-    const bool is_same = std::any_of(distinct.begin(), distinct.end(), [&](const PoseMode* other) {
-      const PoseError apart = ErrorOf(mode.pose, other->pose);
-      return apart.translation_m <= kSameModeM && apart.rotation_deg <= kSameModeDeg;
-    });
-    if (is_same) continue;
-    distinct.push_back(&mode);
-    report.push_back({PoseOf(mode.pose), mode.energy});
-  }
-  return report;
-}
-
 const char* ConfidenceWords(double confidence) {
   if (confidence >= 0.99) return "practically certain";
   if (confidence >= 0.9) return "very likely";
@@ -180,7 +183,8 @@ const char* ConfidenceWords(double confidence) {
   return "unlikely";
 }
 
-// Status, pose and confidence in words, and where in the world it is.
+// Status, pose and confidence in words, and where in the world it is. A score study's minimum has no
+// confidence.
 void AddHeadline(const BenchRun& run, const Crs& crs, ReportRun& report) {
   const Localization& found = run.localization;
   if (!report.result) {
@@ -188,10 +192,12 @@ void AddHeadline(const BenchRun& run, const Crs& crs, ReportRun& report) {
     return;
   }
   const ReportPose& pose = *report.result;
-  std::string text = run.is_given             ? "Pose of another system. "
+  const bool is_map = !std::isfinite(found.confidence);
+  std::string text = run.is_given           ? "Pose of another system. "
+                     : is_map               ? "Least energy of the map. "
                      : found.doubts.empty() ? "Pose found. "
                                             : "Pose found, with doubts. ";
-  if (!run.is_given) {
+  if (!run.is_given && !is_map) {
     text += std::string("It is ") + ConfidenceWords(found.confidence) +
             Text(" (%.2f) that it is within 2\u00a0m and 2° of the truth. ", found.confidence);
   }
@@ -228,10 +234,14 @@ ReportRun RunOf(const BenchRun& run, const Query& query, const Localizer& locali
   if (!run.is_given) {
     report.prior = PoseOf(PriorPoseOf(run, localizer));
     report.prior->has_heading = run.prior.heading_deg.has_value();
+    report.prior->has_height = run.prior.height_in_world.has_value();
+    report.prior->has_tilt = run.prior.pitch_deg.has_value() && run.prior.roll_deg.has_value();
   }
   if (localization.pose) report.result = PoseOf(*localization.pose);
   if (query.truth) report.truth = PoseOf(*query.truth);
-  report.modes = DistinctModes(localization.modes);
+  for (const PoseMode& mode : DistinctModes(localization.modes)) {
+    report.modes.push_back({PoseOf(mode.pose), mode.energy});
+  }
   AddHeadline(run, localizer.scene().model().crs, report);
   if (localization.pose && !run.is_given) report.position_covariance = localization.spread.position_covariance;
   if (!localization.map.energies.empty()) report.map = MapOf(localization.map);

@@ -146,6 +146,12 @@ std::string AnswerText(const RunRecord& run) {
   return text;
 }
 
+std::string ErrorText(const RunRecord& run) {
+  if (!run.pose) return "without a pose";
+  if (!run.error) return "without a truth";
+  return Text("%.2f\u00a0m, ", run.error->translation_m) + Text("%.2f°", run.error->rotation_deg);
+}
+
 ReportOutcome OutcomeOf(Disagreement disagreement) {
   switch (disagreement) {
     case Disagreement::kOnlyA:
@@ -171,6 +177,7 @@ ReportRun RunOf(const Comparison& comparison,
   const Disagreement disagreement = DisagreementOf(pair);
   run.outcome = OutcomeOf(disagreement);
   run.status = WordsOf(disagreement);
+  run.reason = comparison.a + " " + ErrorText(*pair.a) + "; " + comparison.b + " " + ErrorText(*pair.b);
   run.confidence = NAN;
   run.energy = NAN;
   run.seconds = pair.b->seconds;

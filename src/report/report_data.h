@@ -22,6 +22,8 @@ struct ReportPose {
   double pitch_deg = 0.0;
   double roll_deg = 0.0;
   bool has_heading = true;  // false: nothing is known of it
+  bool has_height = true;   // false: assumed
+  bool has_tilt = true;     // false: pitch and roll are assumed
 };
 
 struct ReportMode {
@@ -126,6 +128,7 @@ struct ReportData {
   bool has_recall = true;  // false: no right answer was in the search box, so none is counted
   std::vector<std::pair<std::string, std::string>> facts;  // big figures: name, value
   std::vector<ReportPhoto> photos;
+  int lead = -1;  // index of the photo that stands before all else; -1: none
   std::vector<ReportRun> runs;
   std::vector<ReportPlot> plots;
   std::vector<ReportTable> tables;

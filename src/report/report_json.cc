@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/report_json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -25,6 +26,12 @@ Json Optional(const std::optional<double>& value, int decimals) {
   return value ? Number(*value, decimals) : Json(nullptr);
 }
 
+// With five significant digits: energies of a sharp score differ in their powers of ten.
+Json Significant(double value) {
+  if (!std::isfinite(value) || value == 0.0) return Number(value, 0);
+  return RoundedTo(value, std::max(0, 4 - static_cast<int>(std::floor(std::log10(std::abs(value))))));
+}
+
 // Whole hundredths of a metre keep lists short; the script divides.
 Json Centimetres(const std::vector<Vector2d>& points, const Vector2d& origin) {
   Json list = Json::array();
@@ -44,7 +51,9 @@ Json PoseJson(const std::optional<ReportPose>& pose) {
           {"heading", Number(pose->heading_deg, 3)},
           {"pitch", Number(pose->pitch_deg, 3)},
           {"roll", Number(pose->roll_deg, 3)},
-          {"hasHeading", pose->has_heading}};
+          {"hasHeading", pose->has_heading},
+          {"hasHeight", pose->has_height},
+          {"hasTilt", pose->has_tilt}};
 }
 
 // Lines of a layer in tenths of a pixel.
@@ -93,7 +102,7 @@ Vector2d MapOrigin(const ReportRun& run) {
 
 Json MapJson(const ReportEnergyMap& map, const Vector2d& origin) {
   Json energies = Json::array();
-  for (const float energy : map.energies) energies.push_back(Number(energy, 4));
+  for (const float energy : map.energies) energies.push_back(Significant(energy));
   return {{"east", Number(map.first.x() - origin.x(), 3)},
           {"north", Number(map.first.y() - origin.y(), 3)},
           {"spacing", map.spacing_m},
@@ -119,7 +128,7 @@ Json RunRow(const ReportRun& run) {
           {"status", run.status},
           {"reason", run.reason},
           {"outcome", OutcomeName(run.outcome)},
-          {"energy", Number(run.energy, 5)},
+          {"energy", Significant(run.energy)},
           {"confidence", Number(run.confidence, 4)},
           {"translation", Optional(run.translation_m, 3)},
           {"rotation", Optional(run.rotation_deg, 3)},
@@ -148,7 +157,7 @@ Json PlotJson(const ReportPlot& plot) {
     Json x = Json::array();
     Json y = Json::array();
     for (const double value : s.x) x.push_back(Number(value, 6));
-    for (const double value : s.y) y.push_back(Number(value, 6));
+    for (const double value : s.y) y.push_back(Significant(value));
     series.push_back(
         {{"name", s.name}, {"x", x}, {"y", y}, {"labels", s.labels}, {"line", s.line}});
   }
@@ -197,6 +206,7 @@ std::string SummaryJson(const ReportData& data) {
        {"isStudy", data.is_study},
        {"pair", data.pair_names ? Json(*data.pair_names) : Json(nullptr)},
        {"facts", PairsJson(data.facts)},
+       {"lead", data.lead},
        {"runs", runs},
        {"recall", CurveJson(data.has_recall ? RecallCurve(data.runs) : std::vector<Share95>{})},
        {"reliability", CurveJson(Reliability(data.runs, 10))},
@@ -221,10 +231,10 @@ std::string RunDetailJson(const ReportRun& run) {
   for (const auto& ring : run.footprints) footprints.push_back(Centimetres(ring, origin));
   Json modes = Json::array();
   for (const ReportMode& mode : run.modes) {
-    modes.push_back({{"pose", PoseJson(mode.pose)}, {"energy", Number(mode.energy, 5)}});
+    modes.push_back({{"pose", PoseJson(mode.pose)}, {"energy", Significant(mode.energy)}});
   }
   Json trace = Json::array();
-  for (const double energy : run.best_energy) trace.push_back(Number(energy, 5));
+  for (const double energy : run.best_energy) trace.push_back(Significant(energy));
   Json place = nullptr;
   if (run.latitude_longitude) {
     place = {Number(run.latitude_longitude->x(), 7), Number(run.latitude_longitude->y(), 7)};

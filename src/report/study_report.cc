@@ -279,6 +279,7 @@ BenchRun RunOf(const Query& query, const ScoreStudy& study, const StudyOptions& 
     run.localization.status = LocalizationStatus::kOk;
     run.localization.reason.clear();
     run.localization.pose = study.minimum;
+    run.localization.confidence = NAN;
     for (const float energy : study.map.energies) {
       if (!std::isnan(energy)) {
         run.localization.energy = std::min(run.localization.energy, static_cast<double>(energy));

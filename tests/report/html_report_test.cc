@@ -58,6 +58,35 @@ TEST(ReportJson, ARunWithoutConfidenceHasNull) {
   EXPECT_EQ(detail["plots"][0]["xNames"][1], "b");
 }
 
+TEST(ReportJson, EnergiesKeepTheirPowersOfTen) {
+  ReportData data = testing::ExampleReport(2);
+  data.runs[0].energy = 1.23456789e-7;
+  data.runs[1].energy = 0.0;
+  data.runs[0].map->energies[20] = 2.5e-6f;
+  data.plots[0].series[0].y[0] = 123456.0;
+  const auto summary = nlohmann::json::parse(SummaryJson(data));
+  EXPECT_DOUBLE_EQ(summary["runs"][0]["energy"].get<double>(), 1.2346e-7);
+  EXPECT_EQ(summary["runs"][1]["energy"].get<double>(), 0.0);
+  EXPECT_EQ(summary["plots"][0]["series"][0]["y"][0].get<double>(), 123456.0);
+  const auto detail = nlohmann::json::parse(RunDetailJson(data.runs[0]));
+  EXPECT_NEAR(detail["map"]["energies"][20].get<double>(), 2.5e-6, 1e-12);
+}
+
+TEST(ReportJson, SaysWhatOfAPriorIsAssumed) {
+  ReportData data = testing::ExampleReport(1);
+  data.runs[0].prior->has_height = false;
+  const auto detail = nlohmann::json::parse(RunDetailJson(data.runs[0]));
+  EXPECT_FALSE(detail["prior"]["hasHeight"].get<bool>());
+  EXPECT_TRUE(detail["prior"]["hasTilt"].get<bool>());
+}
+
+TEST(ReportJson, APictureThatStandsFirstIsNoRun) {
+  ReportData data = testing::ExampleReport(2);
+  EXPECT_EQ(nlohmann::json::parse(SummaryJson(data))["lead"], -1);
+  data.lead = 1;
+  EXPECT_EQ(nlohmann::json::parse(SummaryJson(data))["lead"], 1);
+}
+
 TEST(ReportJson, BytesThatAreNotUtf8DoNotBreakIt) {
   ReportData data;
   data.title = "bad \xff name";
