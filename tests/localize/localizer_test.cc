@@ -149,9 +149,9 @@ TEST_F(LocalizerOnAStreet, UnusualHeightsOfACameraInTheHandAreLessLikely) {
   const PoseSpace open(prior, Options().search.space, localizer_.scene(), &ground, footprints);
   PoseSpace::Offset offset;
   EXPECT_EQ(open.LogPrior(offset), 0.0);
-  offset.height_m = 0.5;  // two standard deviations of a Student t with four degrees of freedom
+  offset.height_m = 1.0;  // two standard deviations of a Student t with four degrees of freedom
   EXPECT_NEAR(open.LogPrior(offset), -2.5 * std::log(2.0), 1e-12);
-  offset.height_m = -0.5;
+  offset.height_m = -1.0;
   EXPECT_NEAR(open.LogPrior(offset), -2.5 * std::log(2.0), 1e-12);
   EXPECT_EQ(known.LogPrior(offset), 0.0) << "a height that was given is not a guess";
 }
