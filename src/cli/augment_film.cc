@@ -15,6 +15,7 @@
 #include "camera/local_frame.h"
 #include "cli/augment_parts.h"
 #include "cli/command.h"
+#include "cli/film.h"
 #include "cli/out_folder.h"
 #include "cli/progress.h"
 #include "cli/sequence_input.h"
@@ -140,7 +141,6 @@ int RunAugmentFilm(const AugmentArguments& arguments, const Context& context) {
   const Inserter inserter(*input->scene, mesh);
   const LocalFrame local{input->model->origin_in_world};
   const fs::path temporary = TemporaryBeside(arguments.film);
-  constexpr double kPictureRate = 5.0;
   std::vector<InsertedFrame> drawn, by_instruments;
   std::size_t with_pose = 0, frames = 0;
   double draw_s = 0.0;

@@ -29,7 +29,7 @@ fs::path ResolveConfig(const std::string& config) {
       "--config",
       "",
       "\"" + config + "\"",
-      nearest.empty() ? "an existing file" : "an existing file, or \"" + nearest + "\"");
+      nearest.empty() ? "an existing file" : "an existing file, or a shipped one, e.g. \"" + nearest + "\"");
 }
 
 }  // namespace

@@ -7,6 +7,9 @@
 
 namespace ridgeline {
 
+// Frames per second of a film of single pictures.
+inline constexpr double kPictureRate = 5.0;
+
 // A film that browsers play: H.264 in .mp4, VP9 in .webm, by OpenCV's FFmpeg. Pictures are fitted
 // to the size of the first, at most 1280 px wide.
 class Film {

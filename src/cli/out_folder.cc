@@ -36,8 +36,9 @@ void CheckFileToWrite(const std::string& option, const std::string& file) {
   const fs::path path = file;
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   std::error_code error;
+  fs::create_directories(folder, error);
   if (!fs::is_directory(folder, error)) {
-    throw InputError(option, "", file, "a file in an existing folder");
+    throw InputError(option, "", file, "a file in a folder that exists or can be made");
   }
   if (fs::is_directory(path, error) || ::access(folder.c_str(), W_OK) != 0) {
     throw InputError(option, "", file, "a file in a folder that can be written");

@@ -87,6 +87,8 @@ void Progress::Show(bool last) {
   const bool due =
       terminal_ ? first || now - shown_ >= kTerminalPeriod : now - shown_ >= kPlainPeriod;
   if (!last && !due) return;
+  if (last && !terminal_ && said_ > 0 && said_ == done_) return;  // that line stands already
+  said_ = done_;
   shown_ = now;
   const double seconds = std::chrono::duration<double>(now - start_).count();
   const std::string text = ProgressText(title_, done_, total_, unit_, seconds);

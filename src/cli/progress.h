@@ -39,6 +39,7 @@ class Progress {
   const Clock::time_point start_;
   Clock::time_point shown_;
   std::size_t done_ = 0;
+  std::size_t said_ = 0;  // of done_, on the last line
 };
 
 // "Rendering  12/40 pictures  3.1/s  9 s left": the text both forms share. Rate and remaining time

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "camera/local_frame.h"
 #include "cli/command.h"
+#include "cli/film.h"
 #include "cli/out_folder.h"
 #include "cli/progress.h"
 #include "cli/sequence_input.h"
@@ -47,9 +48,6 @@ struct SkylineArguments {
     v.Group("sensors", [&](OptionVisitor& g) { sensors.Visit(g); });
   }
 };
-
-// Frames per second of an overlay video of single pictures.
-constexpr double kPictureRate = 2.0;
 
 // Writes what is asked for, frame by frame, into the folder.
 class Writer {

@@ -188,7 +188,7 @@ void AddSynthCommand(CLI::App& app, Context& context) {
                                  context,
                                  {"synth",
                                   "Invents a town: CityGML, DTM and pictures with exact poses.",
-                                  "ridgeline synth --out town --seed 7 --queries 20\n"
+                                  "ridgeline synth --out town --queries 20\n"
                                   "ridgeline synth --out big --buildings 100000 --queries 0\n"
                                   "ridgeline synth --out walk --walk 60\n"
                                   "ridgeline synth --out drive --drive 60 --set "

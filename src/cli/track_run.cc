@@ -31,8 +31,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Frames per second of a film of single pictures.
-constexpr double kPictureRate = 4.0;
 
 // A file or standard output that lines go to as they come.
 class LineSink {

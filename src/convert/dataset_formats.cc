@@ -134,6 +134,7 @@ std::string FormatOfInput(const fs::path& path) {
   if (!fs::exists(path, error)) throw InputError(path.string(), "", "no such file", kExpected);
   std::string format;
   if (fs::is_directory(path, error)) {
+    if (IsFile(path / "dataset.json")) format = "dataset";
     if (IsFile(path / "images.txt")) format = "colmap";
     if (IsFile(path / "intrinsic.txt")) format = "lodloc";
     if (IsEgenioussFolder(path)) format = "egeniouss";
@@ -164,7 +165,7 @@ Dataset ReadInput(const fs::path& path, const std::string& format, const Convert
   const std::string known = format.empty() ? FormatOfInput(path) : format;
   CheckFormat("--from", known, InputFormats());
   Dataset dataset = Readers().at(known)(path, options);
-  dataset.file = path;
+  if (known != "dataset") dataset.file = path;
   NameQueries(dataset, path.string());
   CheckPoses(dataset);
   for (Query& query : dataset.queries) {

@@ -115,7 +115,7 @@ std::string ComparisonText(const Comparison& comparison) {
                      std::to_string(comparison.pairs.size()) + " pairs\n";
   std::snprintf(line,
                 sizeof line,
-                "%-42s %10s %10s %11s   %-20s %s\n",
+                "%-46s %10s %10s %11s   %-20s %s\n",
                 "",
                 comparison.a.substr(0, 10).c_str(),
                 comparison.b.substr(0, 10).c_str(),
@@ -133,7 +133,7 @@ std::string ComparisonText(const Comparison& comparison) {
     const std::string unit = is_share ? "%" : f.unit;
     std::snprintf(line,
                   sizeof line,
-                  "%-42s %10s %10s %11s   %-20s %s\n",
+                  "%-46s %10s %10s %11s   %-20s %s\n",
                   (f.name + (unit.empty() ? "" : " [" + unit + "]")).c_str(),
                   Text(format, f.a, scale).c_str(),
                   Text(format, f.b, scale).c_str(),

@@ -196,7 +196,9 @@ Query QueryOf(const Node& node, const std::filesystem::path& folder) {
 
 }  // namespace
 
-Dataset ReadDataset(const std::filesystem::path& path) {
+Dataset ReadDataset(const std::filesystem::path& given) {
+  const std::filesystem::path path =
+      std::filesystem::is_directory(given) ? given / "dataset.json" : given;
   const Json json = ParseFile(path);
   const Node root(json, path.string(), "");
   root.AllowOnly({"name", "crs", "model", "dtm", "queries"});

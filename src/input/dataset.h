@@ -42,7 +42,7 @@ struct Dataset {
   std::vector<Query> queries;
 };
 
-// Reads and checks a dataset.json; paths become absolute or relative to its folder. Throws
+// Reads and checks a dataset.json, or that of a folder; paths become absolute or relative to its folder. Throws
 // InputError naming file and field (e.g. "queries[3].prior.heading_deg") for anything missing,
 // unknown, of a wrong type or out of range, for two queries with one id, and for a dataset without
 // queries.

@@ -77,8 +77,8 @@ void AddTable(std::span<const AyadiRun> runs, ReplayPage& page) {
       }
       if (!is_plain && !run.variant.options.l1.robust) continue;  // the same twice
       rows.push_back(Row({run.variant.name,
-                          is_plain ? "this machine, L1 over all columns"
-                                   : "this machine, robust L1",
+                          is_plain ? "here, L1 of all columns"
+                                   : "here, robust L1",
                           std::to_string(run.frames.size())},
                          errors,
                          times,

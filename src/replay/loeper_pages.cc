@@ -19,6 +19,19 @@ std::string BoxText(double side_m, double heading_deg) {
          TableNumber(heading_deg, 0) + "°";
 }
 
+// Logarithmic where energies differ by more than a factor of 30, as a sharp score's do.
+ChartAxis EnergyAxis(std::span<const LoeperRun* const> runs) {
+  constexpr double kManifold = 30.0;
+  double least = 1.0;
+  for (const LoeperRun* run : runs) {
+    for (const LoeperSample& sample : run->samples) {
+      if (sample.energy > 0.0) least = std::min(least, sample.energy);
+    }
+  }
+  if (kManifold * least >= 1.0) return {"energy", 0.0, 1.0, {}};
+  return {"energy (logarithmic)", 0.7 * least, 1.3, {}, true};
+}
+
 // One panel per number of iterations, as in Fig. 5.
 cv::Mat ScatterOf(std::span<const LoeperRun* const> runs,
                   std::span<const int> iterations,
@@ -27,11 +40,12 @@ cv::Mat ScatterOf(std::span<const LoeperRun* const> runs,
                   double LoeperSample::*error) {
   constexpr int kPanelPx = 460;
   Drawing picture = ChartPaper(kPanelPx * static_cast<int>(iterations.size()), kPanelPx);
+  const ChartAxis energy = EnergyAxis(runs);
   for (std::size_t i = 0; i < iterations.size(); ++i) {
     Chart chart;
     chart.title = std::to_string(iterations[i]) + " iterations";
     chart.x = {label, error == &LoeperSample::kappa_deg ? -limit : 0.0, limit, {}};
-    chart.y = {"energy", 0.0, 1.0, {}};
+    chart.y = energy;
     for (std::size_t r = 0; r < runs.size(); ++r) {
       ChartSeries series;
       series.color = SeriesColor(r);
@@ -40,7 +54,7 @@ cv::Mat ScatterOf(std::span<const LoeperRun* const> runs,
       for (const LoeperSample& sample : runs[r]->samples) {
         if (sample.iteration > iterations[i]) break;
         series.x.push_back(sample.*error);
-        series.y.push_back(sample.energy);
+        series.y.push_back(energy.log ? std::max(sample.energy, *energy.lower) : sample.energy);
       }
       chart.series.push_back(std::move(series));
     }

@@ -16,11 +16,12 @@ namespace {
 
 constexpr int kWidestPx = 1800;
 constexpr char kStyle[] =
-    "body{font:16px/1.5 system-ui,sans-serif;max-width:1100px;margin:2rem auto;padding:0 1rem;"
+    "body{font:16px/1.5 system-ui,sans-serif;max-width:1240px;margin:2rem auto;padding:0 1rem;"
     "color:#1b1f24;background:#fff}h1{font-size:1.6rem}h2{font-size:1.25rem;margin-top:2.2rem;"
     "border-top:1px solid #d0d7de;padding-top:1rem}table{border-collapse:collapse;font-size:.88rem;"
-    "margin:.6rem 0}td,th{padding:.25rem .6rem;border-bottom:1px solid #d0d7de;text-align:right}"
-    "td:first-child,th:first-child{text-align:left}tr.paper td{background:#fff3d6}"
+    "margin:.6rem 0}td,th{padding:.25rem .5rem;border-bottom:1px solid #d0d7de;text-align:right}"
+    "td:first-child,th:first-child{text-align:left}td{white-space:nowrap}"
+    "tr.paper td{background:#fff3d6}"
     "figure{margin:1rem 0}img{max-width:100%;height:auto;border:1px solid #d0d7de}"
     "figcaption,.facts{color:#57606a;font-size:.88rem}.scroll{overflow-x:auto}"
     "code{background:#f3f4f6;padding:.1rem .3rem}";

@@ -34,9 +34,9 @@ void WriteUp(Drawing& drawing, const std::string& text, cv::Point middle) {
   drawing.TextUp(text, middle, kInk, kFont);
 }
 
-// 1, 2 or 5 times a power of ten that gives about `count` steps.
+// 1, 2 or 5 times a power of ten that gives about `count` steps, a few more rather than half as many.
 double NiceStep(double range, int count) {
-  const double raw = std::max(range, 1e-12) / count;
+  const double raw = 0.8 * std::max(range, 1e-12) / count;
   const double power = std::pow(10.0, std::floor(std::log10(raw)));
   for (const double factor : {1.0, 2.0, 5.0}) {
     if (factor * power >= raw) return factor * power;

@@ -266,8 +266,9 @@ TEST_F(BadInput, OutputThatCannotBeWritten) {
               AllOf(HasSubstr("error: --out: got file/result: "),
                     HasSubstr("expected a folder that can be written")));
   EXPECT_THAT(Message("--out /proc/ridgeline"), HasSubstr("error: --out: got /proc/ridgeline: "));
-  EXPECT_EQ(Message("--report " + Quoted(folder_ / "none" / "report.html")),
-            "error: --report: got none/report.html, expected a file in an existing folder");
+  EXPECT_EQ(Message("--report " + Quoted(folder_ / "file" / "report.html")),
+            "error: --report: got file/report.html, expected a file in a folder that exists or can be "
+            "made");
   EXPECT_THAT(MessageOf("bench " + Quoted(Town() / "dataset.json") + " --out /proc/ridgeline"),
               HasSubstr("error: --out: got /proc/ridgeline: "));
 }

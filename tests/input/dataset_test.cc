@@ -52,6 +52,16 @@ TEST(Dataset, ReadsAllParts) {
   EXPECT_EQ(query.truth->center_in_world.z(), 517.0);
 }
 
+TEST(Dataset, AFolderStandsForItsDatasetJson) {
+  const std::filesystem::path file = Write(kGood);
+  const std::filesystem::path folder = file.parent_path() / "folder";
+  std::filesystem::create_directories(folder);
+  std::filesystem::copy_file(file,
+                             folder / "dataset.json",
+                             std::filesystem::copy_options::overwrite_existing);
+  EXPECT_EQ(ReadDataset(folder).file, folder / "dataset.json");
+}
+
 TEST(Dataset, NumbersInOtherUnitsAreRecognized) {
   EXPECT_EQ(MessageOf(Replaced("[500, 500, 320, 240]", "[24, 24, 320, 240]")),
             "queries[0].camera.params[0]: got 24, 173 deg across 640 x 480 px, expected a focal "

@@ -65,6 +65,23 @@ TEST(Chart, NothingToDrawIsStillAPicture) {
   EXPECT_EQ(drawing.Picture().size(), cv::Size(400, 300));
 }
 
+// An axis of one number says nothing.
+TEST(Chart, AxesHaveSeveralNumbers) {
+  for (const double half : {1.0, 2.4, 2.6, 4.0, 4.9, 5.1, 7.0}) {
+    Chart chart;
+    chart.x = {"", -10.0 * half, 10.0 * half, {}};
+    chart.series = {{"", {200, 0, 0}, {0.0}, {0.0}, false, true}};
+    Drawing drawing = ChartPaper(460, 460);
+    DrawChart(chart, {0, 0, 460, 460}, drawing);
+    const std::string svg = drawing.Svg();
+    int numbers = 0;  // those below the frame
+    for (std::size_t at = svg.find("<text"); at != std::string::npos; at = svg.find("<text", at + 1)) {
+      numbers += std::stod(svg.substr(svg.find(" y=\"", at) + 4)) > 420.0 ? 1 : 0;
+    }
+    EXPECT_GE(numbers, 3) << half;
+  }
+}
+
 // A score's energies of 1e-9 to 1 lie apart on a logarithmic axis, whose numbers are powers of ten.
 TEST(Chart, LogarithmicAxisSpreadsPowersOfTen) {
   Chart chart;

@@ -35,6 +35,7 @@ int main(int argc, char** argv) {
   }
   WriteHtmlReport(abstained, folder / "abstained.html");
   ridgeline::ReportData study = ExampleReport(6);
+  study.is_study = true;
   study.right_text = "maps have their minimum within 2 m and 2°";
   for (ridgeline::ReportRun& run : study.runs) {
     run.confidence = std::numeric_limits<double>::quiet_NaN();
