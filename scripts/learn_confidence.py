@@ -20,6 +20,7 @@ from scipy.optimize import minimize
 from scipy.stats import beta
 
 RIDGE = 0.02
+INFORMATION_NAT = 15.0
 # Of runs whose background is not known, and the bounds of the features (src/localize/confidence.cc).
 UNKNOWN_NAT = 10.0
 
@@ -51,7 +52,9 @@ def features(rows):
     explained = np.clip([float(r["explained"]) for r in rows], -0.5, 1.5)
     background = np.clip([number(r["above_background_nat"]) for r in rows], -10.0, 25.0)
     mass = np.clip([float(r["posterior_mass"]) for r in rows], 1e-6, 1.0)
-    return np.stack([np.ones(len(rows)), explained, background], axis=1), mass
+    information = np.array([float(r["information_nat"]) for r in rows])
+    missing = np.minimum(0.0, information - INFORMATION_NAT)
+    return np.stack([np.ones(len(rows)), explained, background, missing], axis=1), mass
 
 
 def outcomes(rows):
@@ -62,8 +65,8 @@ def outcomes(rows):
 
 
 def probability(b, x, mass):
-    """b: offset, explained, above_background, log of mass_power."""
-    return mass ** np.exp(b[3]) / (1 + np.exp(-np.clip(x @ b[:3], -30, 30)))
+    """b: offset, explained, above_background, information, log of mass_power."""
+    return mass ** np.exp(b[4]) / (1 + np.exp(-np.clip(x @ b[:4], -30, 30)))
 
 
 def fit(x, mass, y):
@@ -71,8 +74,8 @@ def fit(x, mass, y):
     def loss(b):
         p = np.clip(probability(b, x, mass), 1e-6, 1 - 1e-6)
         likelihood = (y * np.log(p) + (1 - y) * np.log(1 - p)).sum()
-        return -likelihood + RIDGE * (b[1:3] ** 2).sum() + 0.5 * b[3] ** 2
-    starts = [np.array([offset, 1.0, 0.1, 0.0]) for offset in (-4.0, -2.0, 0.0)]
+        return -likelihood + RIDGE * (b[1:4] ** 2).sum() + 0.5 * b[4] ** 2
+    starts = [np.array([offset, 1.0, 0.1, 0.1, 0.0]) for offset in (-4.0, -2.0, 0.0)]
     return min((minimize(loss, start, method="BFGS") for start in starts), key=lambda r: r.fun).x
 
 
@@ -108,8 +111,8 @@ def main():
     right, near = outcomes(rows)
     models = [("right", fit(*features(rows), right)), ("near", fit(*features(rows), near))]
     for name, b in models:
-        values = [*b[:3], np.exp(b[3])]
-        print(name, dict(zip(["offset", "explained", "above_background", "mass_power"],
+        values = [*b[:4], np.exp(b[4])]
+        print(name, dict(zip(["offset", "explained", "above_background", "information", "mass_power"],
                              np.round(values, 3).tolist())))
     print(f"\nlearned from {len(rows)} runs:")
     judge(rows, models[0][1])

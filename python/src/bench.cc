@@ -122,6 +122,7 @@ py::dict Arrays(const BenchResult& result) {
   arrays["posterior_mass"] = Column(result, [](const RunRecord& r) { return r.posterior_mass; });
   arrays["explained"] = Column(result, [](const RunRecord& r) { return r.explained; });
   arrays["observed_nat"] = Column(result, [](const RunRecord& r) { return r.observed_nat; });
+  arrays["information_nat"] = Column(result, [](const RunRecord& r) { return r.information_nat; });
   arrays["above_background_nat"] = Column(
       result, [](const RunRecord& r) { return r.above_background_nat.value_or(kNan); });
   arrays["evaluations"] =
@@ -181,7 +182,7 @@ void BindBench(py::module_& module) {
 query, set, status (str); seed, evaluations (int64); energy, confidence, east, north, height [m],
 qx, qy, qz, qw, error_m, error_horizontal_m, error_deg (NaN: no pose or no truth), candidate_error_m,
 candidate_error_horizontal_m, candidate_error_deg (of the best pose, withheld or not),
-posterior_mass, explained, observed_nat, above_background_nat, seconds (float64).)")
+posterior_mass, explained, observed_nat, information_nat, above_background_nat, seconds (float64).)")
       .def("json", &Json, "summary.json, which `ridgeline bench --json` prints.")
       .def("summary", [](const BenchResult& r) { return FromJson(Json(r)); }, "The same as a dict.")
       .def("csv", [](const BenchResult& r) { return ResultsCsv(r.records); }, "results.csv.")

@@ -73,6 +73,7 @@ RunRecord RecordOf(const Query& query, int seed, const Localization& localizatio
   const bool is_judged = localization.goodness.is_known() || std::isfinite(localization.energy);
   record.explained = is_judged ? localization.goodness.explained() : NAN;
   record.observed_nat = is_judged ? localization.goodness.observed : NAN;
+  record.information_nat = is_judged ? localization.goodness.information() : NAN;
   record.above_background_nat = localization.above_background;
   if (!localization.modes.empty() && query.truth) {
     record.candidate_error = ErrorOf(localization.modes.front().pose, *query.truth);

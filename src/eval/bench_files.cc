@@ -139,12 +139,13 @@ std::string ResultsCsv(std::span<const RunRecord> runs) {
 
 std::string EvidenceCsv(std::span<const RunRecord> runs) {
   std::ostringstream csv;
-  csv << "query,seed,set,status,confidence,posterior_mass,explained,observed_nat,above_background_nat,"
-         "candidate_t_err_m,candidate_r_err_deg\n";
+  csv << "query,seed,set,status,confidence,posterior_mass,explained,observed_nat,information_nat,"
+         "above_background_nat,candidate_t_err_m,candidate_r_err_deg\n";
   for (const RunRecord& run : runs) {
     csv << CsvField(run.query) << ',' << run.seed << ',' << CsvField(run.set) << ',' << run.status
         << ',' << CsvNumber(run.confidence, 6) << ',' << CsvNumber(run.posterior_mass, 6) << ','
         << CsvNumber(run.explained, 4) << ',' << CsvNumber(run.observed_nat, 3) << ','
+        << CsvNumber(run.information_nat, 3) << ','
         << (run.above_background_nat ? CsvNumber(*run.above_background_nat, 3) : "") << ',';
     if (run.candidate_error) {
       csv << CsvNumber(run.candidate_error->translation_m, 4) << ','

@@ -37,6 +37,7 @@ struct RunRecord {
   double posterior_mass = 0.0;
   double explained = 0.0;
   double observed_nat = 0.0;
+  double information_nat = 0.0;
   std::optional<double> above_background_nat;
   std::optional<PoseError> candidate_error;
   // 95 % region: whether it holds the truth (position ellipse, heading interval).

@@ -86,6 +86,7 @@ Json JsonOf(const Localization& localization, const CityModel& model) {
   Json json = {{"posterior_mass", Fine(localization.posterior_mass)},
                {"explained", Fine(goodness.explained())},
                {"observed_nat", Fine(goodness.observed)},
+               {"information_nat", Fine(goodness.information())},
                {"expected_nat", Fine(goodness.expected)},
                {"chance_nat", Fine(goodness.chance)}};
   json["above_background_nat"] = nullptr;

@@ -30,6 +30,8 @@ constexpr double kOnBorder = 0.5;
 constexpr double kUnjudged = 0.5;
 // Below this the edges are not where they should be.
 constexpr double kExplained = 0.5;
+// Below this the edges in view agree with many places.
+constexpr double kLittleNat = 10.0;
 // Below this the best of the box is a place like others [nat].
 constexpr double kStandsOutNat = 3.0;
 
@@ -53,6 +55,11 @@ std::vector<std::string> DoubtsOf(const Goodness& goodness, const CityModel& mod
     doubts.push_back(Text("the model's edges are not seen where they should be: %.0f % % of what a "
                           "right pose shows on average",
                           100.0 * std::max(0.0, goodness.explained())));
+  }
+  if (goodness.is_known() && goodness.information() < kLittleNat) {
+    doubts.push_back(Text("little of the model is in view: its edges can tell %.0f nats, ",
+                          goodness.information()) +
+                     Text("where %.0f are wanted", kLittleNat));
   }
   for (const BuildingFit& fit : goodness.buildings) {
     const std::string building = "building " + NameOf(model.buildings[fit.building]);

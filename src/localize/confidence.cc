@@ -10,6 +10,7 @@ void OutcomeModel::Visit(OptionVisitor& v) {
   v.Field("offset", offset, AnyNumber());
   v.Field("explained", explained, AnyNumber());
   v.Field("above_background", above_background, AnyNumber());
+  v.Field("information", information, AnyNumber());
   v.Field("mass_power", mass_power, NotNegative());
 }
 
@@ -21,9 +22,12 @@ double OutcomeModel::Probability(double posterior_mass,
   constexpr double kMostNat = 25.0;
   // Of right answers where it is known, about.
   constexpr double kUnknownNat = 10.0;
+  // Edges that can tell more than this are as good as any.
+  constexpr double kInformationNat = 15.0;
   const double logit =
       offset + explained * std::clamp(goodness.explained(), -0.5, kMostExplained) +
-      above_background * std::clamp(background_nat.value_or(kUnknownNat), kLeastNat, kMostNat);
+      above_background * std::clamp(background_nat.value_or(kUnknownNat), kLeastNat, kMostNat) +
+      information * std::min(0.0, goodness.information() - kInformationNat);
   return std::pow(std::clamp(posterior_mass, 0.0, 1.0), mass_power) / (1.0 + std::exp(-logit));
 }
 

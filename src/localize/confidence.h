@@ -9,15 +9,18 @@
 namespace ridgeline {
 
 // The probability of an outcome of an answer, from what is known of it without the truth: that the
-// picture is from the box at all, a logistic regression on the share of the edges that is seen and
-// on how far the box stands above the background, times a power of the posterior mass, that it is
-// from there and not from elsewhere in the box:
-// P = mass^mass_power / (1 + exp(-(offset + explained * share + above_background * nats))).
+// picture is from the box at all, a logistic regression on the share of the edges that is seen, on
+// how far the box stands above the background, and on how much the edges in view can tell (few edges
+// agree with many places), times a power of the posterior mass, that it is from there and not from
+// elsewhere in the box:
+// P = mass^mass_power / (1 + exp(-(offset + explained * share + above_background * nats +
+//                                  information * min(0, Goodness::information() - 15)))).
 // Learned by scripts/learn_confidence.py (docs/confidence.md).
 struct OutcomeModel {
   double offset = 0.0;
   double explained = 0.0;
   double above_background = 0.0;  // [1 / nat]
+  double information = 0.0;       // [1 / nat]
   double mass_power = 1.0;
 
   void Visit(OptionVisitor& v);
@@ -32,8 +35,8 @@ struct ConfidenceOptions {
   double doubtful_below = 0.6;
   // That an answer is within 2 m and 2 degrees, and that it is within 5 m and 5 degrees; for scores
   // that judge no buildings the confidence is the posterior mass.
-  OutcomeModel right{-7.4, 6.0, 0.30, 1.28};
-  OutcomeModel near{-8.3, 6.6, 0.33, 0.31};
+  OutcomeModel right{-7.4, 6.0, 0.30, 0.40, 1.28};
+  OutcomeModel near{-8.3, 6.6, 0.33, 0.44, 0.31};
   // Answers whose protection level is above this are withheld [m]; 0: none are.
   double alert_limit_m = 0.0;
   // Widens the posterior, since samples of a picture are correlated.

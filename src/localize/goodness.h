@@ -18,9 +18,11 @@ struct Goodness {
 
   // Whether the score can tell.
   bool is_known() const { return !buildings.empty(); }
+  // How much the edges could tell at the most, on average: no property of the picture.
+  double information() const { return expected - chance; }
   // 1 where the edges are seen as on average they should be, 0 where they might lie anywhere.
   double explained() const {
-    return expected > chance ? (observed - chance) / (expected - chance) : 0.0;
+    return information() > 0.0 ? (observed - chance) / information() : 0.0;
   }
 };
 

@@ -106,6 +106,19 @@ TEST_F(WebFiles, OfAServerThatDripsAreGivenUp) {
   EXPECT_EQ(Kept(), 0u);
 }
 
+TEST_F(WebFiles, OfAServerThatSendsJustFastEnoughAreGivenUpInTheEnd) {
+  options_.most_s = 2;
+  WebServer server(Files{{"a.txt", "x"}});
+  EXPECT_THAT(ErrorOf(server.address() + "/trickle/a.txt"), HasSubstr("/trickle/a.txt: got "));
+  EXPECT_EQ(Kept(), 0u);
+}
+
+TEST_F(WebFiles, ThatAreMovedInACircleAreGivenUp) {
+  WebServer server(Files{{"a.txt", "x"}});
+  EXPECT_THAT(ErrorOf(server.address() + "/circle/a.txt"), HasSubstr("/circle/a.txt: got "));
+  EXPECT_EQ(Kept(), 0u);
+}
+
 TEST_F(WebFiles, ThatAreMovedToThisMachineAreNotTaken) {
   WebServer server(Files{{"a.txt", "x"}});
   EXPECT_THAT(ErrorOf(server.address() + "/moved/a.txt"), HasSubstr("/moved/a.txt: got "));

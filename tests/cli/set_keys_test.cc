@@ -216,6 +216,7 @@ const std::map<std::string, std::string>& Values() {
       {"confidence.near.offset", "500"},
       {"confidence.near.explained", "300"},
       {"confidence.near.above_background", "30"},
+      {"confidence.near.information", "30"},
       {"confidence.near.mass_power", "0"}};
   return values;
 }

@@ -133,6 +133,15 @@ void WebServer::Answer(int client) {
     SendForEver(client, "x", 100);
     return;
   }
+  if (way == "/trickle") {
+    Send(client, "HTTP/1.0 200 OK\r\n\r\n");
+    SendForEver(client, std::string(2000, 'x'), 100);
+    return;
+  }
+  if (way == "/circle") {
+    Send(client, "HTTP/1.0 302 Found\r\nLocation: /circle/a.txt\r\n\r\n");
+    return;
+  }
   if (way == "/endless") {
     Send(client, "HTTP/1.0 200 OK\r\n\r\n");
     SendForEver(client, std::string(1 << 16, 'x'), 0);

@@ -16,7 +16,9 @@ namespace ridgeline::testing {
 //   /mute/NAME    says the whole length, sends half, and is silent until the client gives up
 //   /busy/NAME    500
 //   /drip/NAME    a byte every tenth of a second
+//   /trickle/NAME 2 kB every tenth of a second, without end
 //   /moved/NAME   302 to the file system: file:///etc/hostname
+//   /circle/NAME  302 to itself
 //   /endless/NAME no length, and no end until the client hangs up
 //   /gzip/NAME    the same, packed: a few bytes that stand for very many
 // and 404 for files that it does not have.

@@ -80,6 +80,7 @@ Answer Download(const std::string& address,
   words.SetNameValue("CONNECTTIMEOUT", patience.c_str());
   words.SetNameValue("LOW_SPEED_TIME", patience.c_str());
   words.SetNameValue("LOW_SPEED_LIMIT", "1000");
+  words.SetNameValue("TIMEOUT", std::to_string(options.most_s).c_str());
   words.SetNameValue("MAX_RETRY", std::to_string(options.retries).c_str());
   words.SetNameValue("RETRY_DELAY", "1");
   if (!date.empty()) words.SetNameValue("HEADERS", ("If-Modified-Since: " + date).c_str());

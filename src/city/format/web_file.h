@@ -20,6 +20,8 @@ struct WebOptions {
   std::filesystem::path cache;
   // A server is given up when it does not answer, or sends less than 1 kB a second, for so long [s].
   int patience_s = 20;
+  // And in any case after so long [s]: a server may drip just fast enough.
+  int most_s = 3600;
   // Longest file that is taken, unpacked [bytes].
   std::uint64_t most_bytes = limits::kFileBytes;
   // Repeated tries after an answer such as 503.
