@@ -49,7 +49,7 @@ def test_infeasible_points_are_not_proposed():
 
 
 def test_what_samplers_refuse():
-    with pytest.raises(ridgeline.InputError, match="a known sampler"):
+    with pytest.raises(ridgeline.InputError, match="expected random, sobol, tpe"):
         ridgeline.Sampler("tqe", BOX)
     with pytest.raises(ridgeline.InputError, match="lower"):
         ridgeline.Sampler("tpe", [("x", 1.0, 0.0)])

@@ -290,7 +290,7 @@ TEST(Study, NeedsATruthAndAPlaceToWrite) {
   const Outcome out = Ridgeline(StudyOfTown("--out " + Quoted(folder / "file")));
   EXPECT_EQ(out.exit_code, 2);
   EXPECT_THAT(out.text, HasSubstr("--out"));
-  const Outcome report = Ridgeline(StudyOfTown("--report " + Quoted(folder / "none" / "x.html")));
+  const Outcome report = Ridgeline(StudyOfTown("--report " + Quoted(folder / "file" / "x.html")));
   EXPECT_EQ(report.exit_code, 2);
 }
 

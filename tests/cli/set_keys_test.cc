@@ -77,6 +77,14 @@ const std::map<std::string, std::vector<std::string>>& SpecialCompanions() {
         "confidence.right.offset=-15",
         "confidence.near.mass_power=0",
         "confidence.near.explained=-100"}},
+      // Little of the model is in view then.
+      {"confidence.right.information", {kFewModes, "projection.max_distance_m=25"}},
+      {"confidence.near.information",
+       {kFewModes,
+        "projection.max_distance_m=25",
+        "confidence.right.offset=-15",
+        "confidence.near.mass_power=0",
+        "confidence.near.offset=-100"}},
       {"confidence.near.mass_power",
        {kFewModes,
         "confidence.right.offset=-15",
@@ -216,7 +224,7 @@ const std::map<std::string, std::string>& Values() {
       {"confidence.near.offset", "500"},
       {"confidence.near.explained", "300"},
       {"confidence.near.above_background", "30"},
-      {"confidence.near.information", "30"},
+      {"confidence.near.information", "-1000"},
       {"confidence.near.mass_power", "0"}};
   return values;
 }
