@@ -77,11 +77,11 @@ const std::map<std::string, std::vector<std::string>>& SpecialCompanions() {
         "confidence.right.offset=-15",
         "confidence.near.mass_power=0",
         "confidence.near.explained=-100"}},
-      // Little of the model is in view then.
-      {"confidence.right.information", {kFewModes, "projection.max_distance_m=25"}},
+      // The edges can tell little then.
+      {"confidence.right.information", {kFewModes, "score.evidence.lines.spacing_width=0.1"}},
       {"confidence.near.information",
        {kFewModes,
-        "projection.max_distance_m=25",
+        "score.evidence.lines.spacing_width=0.1",
         "confidence.right.offset=-15",
         "confidence.near.mass_power=0",
         "confidence.near.offset=-100"}},
