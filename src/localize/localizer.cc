@@ -311,15 +311,13 @@ ScoredPose Localizer::Impl::WithRoofsInDoubt(const PictureEvidence& picture,
   constexpr double kLeastGain = 4.0;  // [nat]
   ScoredPose best = as_modelled;
   std::vector<RoofShift> shifts;
-  CityModel believed = model;
   for (int round = 0; round < kRounds; ++round) {
     const std::optional<RoofShift> doubted =
-        RoofInDoubt({picture, believed, space, options},
-                    result.goodness,
-                    best,
-                    shifts);
+        RoofInDoubt({picture, model, space, options, shifts}, result.goodness, best);
     if (!doubted) break;
-    CityModel shifted = WithShiftedRoofs(believed, {&*doubted, 1});
+    std::vector<RoofShift> tried = shifts;
+    tried.push_back(*doubted);
+    const CityModel shifted = WithShiftedRoofs(model, tried);
     const Scene shifted_scene(shifted, dtm ? &*dtm : nullptr, options.projection);
     const std::unique_ptr<Score> score = MakeScore({picture, shifted_scene, options.score});
     const PoseScorer scorer(
@@ -328,10 +326,9 @@ ScoredPose Localizer::Impl::WithRoofsInDoubt(const PictureEvidence& picture,
     result.evaluations += found.evaluations;
     if (found.modes.empty() || found.modes.front().log_ratio < best.log_ratio + kLeastGain) break;
     best = found.modes.front();
-    shifts.push_back(*doubted);
+    shifts = std::move(tried);
     if (found.volume) result.map = MapOf(*found.volume, space, model);
     Believe(found, scorer, options.confidence, result);
-    believed = std::move(shifted);
   }
   for (const RoofShift& shift : shifts) result.doubts.push_back(WordsOf(shift, model));
   return best;

@@ -33,14 +33,16 @@ class Turner {
             trial.model,
             trial.space.center() + Eigen::Vector2d(pose.offset.east_m, pose.offset.north_m),
             kAroundM)),
-        as_modelled_(With({})) {}
+        as_modelled_(With(trial.settled)) {}
 
   double Gain(const RoofShift& shift) const {
-    return With(std::span<const RoofShift>(&shift, 1)) - as_modelled_;
+    std::vector<RoofShift> shifts = trial_.settled;
+    shifts.push_back(shift);
+    return With(shifts) - as_modelled_;
   }
 
  private:
-  double With(std::span<const RoofShift> shifts) const {
+  double With(const std::vector<RoofShift>& shifts) const {
     const CityModel shifted = WithShiftedRoofs(around_, shifts);
     const Scene scene(shifted, nullptr, trial_.options.projection);
     const std::unique_ptr<Score> score =
@@ -63,8 +65,7 @@ class Turner {
 
 std::optional<RoofShift> RoofInDoubt(const RoofTrial& trial,
                                      const Goodness& goodness,
-                                     const ScoredPose& best,
-                                     const std::vector<RoofShift>& settled) {
+                                     const ScoredPose& best) {
   const Turner turner(trial, best);
   RoofShift found;
   double highest = 0.0;
@@ -77,9 +78,10 @@ std::optional<RoofShift> RoofInDoubt(const RoofTrial& trial,
   };
   for (std::size_t k = 0; k < std::min(kBuildings, goodness.buildings.size()); ++k) {
     const BuildingFit& fit = goodness.buildings[k];
-    const bool is_settled = std::any_of(settled.begin(), settled.end(), [&](const RoofShift& s) {
-      return s.building == fit.building;
-    });
+    const bool is_settled =
+        std::any_of(trial.settled.begin(), trial.settled.end(), [&](const RoofShift& s) {
+          return s.building == fit.building;
+        });
     if (is_settled || fit.information() < kTellingNat) continue;
     for (const double up : kShiftsM) attempt({fit.building, up});
   }
