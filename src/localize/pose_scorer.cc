@@ -24,6 +24,12 @@ PoseScorer PoseScorer::With(const Score& score) const {
   return other;
 }
 
+PoseScorer PoseScorer::In(const PoseSpace& space) const {
+  PoseScorer other = *this;
+  other.space_ = &space;
+  return other;
+}
+
 PanoramaRange PoseScorer::RangeAround(const ViewAngles& center,
                                       const ViewAngles& half_ranges) const {
   return RangeOf(*camera_, center, half_ranges, surface_step_rad_);

@@ -40,8 +40,9 @@ class PoseScorer {
              const PinholeCamera& camera,
              double surface_step_deg);
 
-  // The same with another score.
+  // The same with another score, or in another space.
   PoseScorer With(const Score& score) const;
+  PoseScorer In(const PoseSpace& space) const;
 
   const Score& score() const { return *score_; }
   const Scene& scene() const { return *scene_; }

@@ -20,9 +20,9 @@ PoseSpace::PoseSpace(const PosePrior& prior,
                      const HeightGrid* dtm,
                      const Footprints& footprints)
     : ranges_(options),
-      scene_(scene),
+      scene_(&scene),
       dtm_(dtm),
-      footprints_(footprints),
+      footprints_(&footprints),
       center_(prior.position_in_world - scene.model().origin_in_world.head<2>()) {
   const double sum = prior.position_in_world.sum() + prior.height_in_world.value_or(0.0) +
                      prior.heading_deg.value_or(0.0) + prior.pitch_deg.value_or(0.0) +
@@ -43,6 +43,14 @@ PoseSpace::PoseSpace(const PosePrior& prior,
   if (!dtm_->HeightAt(center_)) {
     throw InputError("", "prior.position", "a place the DTM does not cover", "a place on the DTM");
   }
+}
+
+PoseSpace PoseSpace::MovedTo(const Offset& offset) const {
+  PoseSpace moved = *this;
+  moved.center_ += Eigen::Vector2d(offset.east_m, offset.north_m);
+  if (moved.height_) *moved.height_ += offset.height_m;
+  moved.angles_ = AnglesAt(offset);
+  return moved;
 }
 
 std::optional<Eigen::Vector3d> PoseSpace::PositionAt(double east_m,
@@ -71,8 +79,8 @@ std::optional<double> PoseSpace::SameHeightAboveGround(double east_m, double nor
 
 // Above a footprint is not inside it: a drone has no roof over it.
 bool PoseSpace::IsInBuilding(const Eigen::Vector3d& position) const {
-  return footprints_.Contains(position.head<2>()) &&
-         scene_.Raycast(position, Eigen::Vector3d::UnitZ()).has_value();
+  return footprints_->Contains(position.head<2>()) &&
+         scene_->Raycast(position, Eigen::Vector3d::UnitZ()).has_value();
 }
 
 ViewAngles PoseSpace::AnglesAt(const Offset& offset) const {

@@ -70,6 +70,10 @@ class PoseSpace {
             const HeightGrid* dtm,
             const Footprints& footprints);
 
+  // The same freedom around another place and heading, as an offset; heights follow the prior's, or
+  // the terrain, plus that of the offset.
+  PoseSpace MovedTo(const Offset& offset) const;
+
   bool IsInBuilding(const Eigen::Vector3d& position) const;
 
   const PoseSpaceOptions& ranges() const { return ranges_; }
@@ -89,9 +93,9 @@ class PoseSpace {
 
  private:
   PoseSpaceOptions ranges_;
-  const Scene& scene_;
+  const Scene* scene_;
   const HeightGrid* dtm_;
-  const Footprints& footprints_;
+  const Footprints* footprints_;
   Eigen::Vector2d center_ = Eigen::Vector2d::Zero();
   std::optional<double> height_;  // local; absent: terrain + camera height
   ViewAngles angles_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 #include "base/parallel.h"
@@ -95,6 +96,31 @@ class MapScore {
   std::unique_ptr<Score> quick_;
 };
 
+// The background as the modes are refined, and how far the best mode stands above it then. Returns the
+// number of energies computed.
+std::uint64_t RefineBackground(const PoseScorer& scorer, int threads, SearchedPoses& found) {
+  constexpr std::size_t kRefined = 16;
+  // The places are far apart: the first step is a large one.
+  constexpr RefineSteps kSteps{.first_m = 2.0, .first_deg = 1.0, .last_m = 0.06};
+  if (found.background.empty()) return 0;
+  std::vector<ScoredPose> poses;
+  for (const BackgroundPose& pose : found.background) poses.push_back(pose.best);
+  std::vector<std::uint64_t> evaluations(poses.size());
+  RefineWhileHopeful(
+      poses, std::min(kRefined, poses.size()), [&](std::size_t first, std::size_t count) {
+        ParallelFor(count, threads, [&](std::size_t k) {
+          const std::size_t i = first + k;
+          const RefinedPose refined =
+              RefinePose(scorer.In(found.background[i].space), poses[i], kSteps);
+          poses[i] = refined.pose;
+          evaluations[i] = refined.evaluations;
+        });
+      });
+  SortBestFirst(poses);
+  found.above_background = found.modes.front().log_ratio - poses.front().log_ratio;
+  return std::accumulate(evaluations.begin(), evaluations.end(), std::uint64_t{0});
+}
+
 // The poses of MapPoses() that can be the best or count beside it.
 SearchedPoses SearchMap(const PoseScorer& scorer,
                         const PictureEvidence& picture,
@@ -113,14 +139,13 @@ SearchedPoses SearchMap(const PoseScorer& scorer,
   const MapScore fine(scorer.score(), SpacingOf(ranges, options), tilts);
   const PoseScorer first = scorer.With(*coarse);
   found.volume = ComputeVolumeCoarseToFine(first, scorer.With(*fine), tilts, options, threads);
-  const Background background =
-      BackgroundOf(first, tilts, kFirstHeadingStepDeg, kBackgroundPlaces, threads);
-  if (!background.log_ratios.empty()) {
+  found.evaluations = found.volume->evaluations;
+  found.background = BackgroundOf(
+      first, tilts, kFirstHeadingStepDeg, kBackgroundPlaces, threads, found.evaluations);
+  if (!found.background.empty()) {
     found.above_background =
-        found.volume->highest_first -
-        *std::max_element(background.log_ratios.begin(), background.log_ratios.end());
+        found.volume->highest_first - found.background.front().best.log_ratio;
   }
-  found.evaluations = found.volume->evaluations + background.evaluations;
   return found;
 }
 
@@ -173,7 +198,7 @@ std::uint64_t RefineModes(const PoseScorer& scorer, int threads, SearchedPoses& 
     refine(first, count, {0.25, 0.25, 0.06});
   });
   SortBestFirst(modes);
-  return total;
+  return total + RefineBackground(scorer, threads, found);
 }
 
 }  // namespace ridgeline

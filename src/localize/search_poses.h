@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "localize/background.h"
 #include "localize/localizer_options.h"
 #include "localize/pose_scorer.h"
 #include "localize/pose_volume.h"
@@ -18,8 +19,10 @@ struct SearchedPoses {
   std::optional<PoseVolume> volume;  // of the dense map; absent for samplers
   double spacing_m = 1.0;            // between the places looked at
   std::uint64_t evaluations = 0;
-  // How far the best of the box stands above the best of the background (background.h) [nat]; not
-  // known for samplers, for scores without a tolerance, and where there are no other places.
+  std::vector<BackgroundPose> background;  // best first; empty for samplers and the like
+  // How far the best of the box stands above the best of the background [nat], both by the first look
+  // or both refined; not known for samplers, for scores without a tolerance, and where there are no
+  // other places.
   std::optional<double> above_background;
 };
 
@@ -38,7 +41,7 @@ PoseVolume MapPoses(const PoseScorer& scorer,
                     int threads);
 
 // Refines the modes on the exact score, all a little and the better ones to the end, and sorts
-// them, best first. Returns the number of energies computed.
+// them, best first; and the best of the background, to which they are then compared. Returns the number of energies computed.
 std::uint64_t RefineModes(const PoseScorer& scorer, int threads, SearchedPoses& found);
 
 }  // namespace ridgeline

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <mutex>
 
@@ -42,11 +43,11 @@ class BackgroundOfATown : public ::testing::Test {
     ranges_.heading_deg = 180.0;
   }
 
-  Background Look(const Recorder& recorder, int count, int threads) const {
+  std::vector<BackgroundPose> Look(const Recorder& recorder, int count, int threads) {
     const PoseSpace space(prior_, ranges_, scene_, nullptr, footprints_);
     const PoseScorer scorer(recorder, scene_, space, camera_, 0.5);
     const std::vector<Tilt> tilts(1);
-    return BackgroundOf(scorer, tilts, 2.0, count, threads);
+    return BackgroundOf(scorer, tilts, 2.0, count, threads, evaluations_);
   }
 
   CityModel model_;
@@ -54,15 +55,22 @@ class BackgroundOfATown : public ::testing::Test {
   Scene scene_;
   PosePrior prior_;
   PoseSpaceOptions ranges_;
+  std::uint64_t evaluations_ = 0;
   PinholeCamera camera_{64, 48, 50.0, 50.0, 32.0, 24.0};
 };
 
 TEST_F(BackgroundOfATown, LooksInAllHeadingsFromPlacesOutsideOfTheBox) {
   const Recorder recorder;
-  const Background background = Look(recorder, 20, 1);
-  ASSERT_EQ(background.log_ratios.size(), 20u);
-  EXPECT_EQ(background.evaluations, 20u * 180u);
-  for (const double log_ratio : background.log_ratios) EXPECT_NEAR(log_ratio, 50.0, 1.0 + 2.5);
+  const std::vector<BackgroundPose> background = Look(recorder, 20, 1);
+  ASSERT_EQ(background.size(), 20u);
+  EXPECT_EQ(evaluations_, 20u * 180u);
+  for (const BackgroundPose& pose : background) {
+    const double heading = pose.space.AnglesAt(pose.best.offset).heading_deg;
+    EXPECT_NEAR(HeadingDifferenceDeg(heading, 120.0), 0.0, 1.0);
+    EXPECT_DOUBLE_EQ(pose.best.log_ratio,
+                     50.0 - std::abs(HeadingDifferenceDeg(heading, 120.0)) +
+                         0.01 * pose.space.PositionAt(0.0, 0.0, 0.0)->x());
+  }
   for (const Eigen::Vector3d& place : recorder.places()) {
     const Eigen::Vector2d offset = place.head<2>() - prior_.position_in_world;
     EXPECT_GT(offset.cwiseAbs().maxCoeff(), ranges_.east_m);
@@ -74,13 +82,20 @@ TEST_F(BackgroundOfATown, LooksInAllHeadingsFromPlacesOutsideOfTheBox) {
 TEST_F(BackgroundOfATown, IsTheSameOnAnyNumberOfThreads) {
   const Recorder one;
   const Recorder many;
-  EXPECT_EQ(Look(one, 30, 1).log_ratios, Look(many, 30, 8).log_ratios);
+  const auto log_ratios = [](const std::vector<BackgroundPose>& background) {
+    std::vector<double> all;
+    for (const BackgroundPose& pose : background) all.push_back(pose.best.log_ratio);
+    return all;
+  };
+  const std::vector<double> expected = log_ratios(Look(one, 30, 1));
+  EXPECT_TRUE(std::is_sorted(expected.rbegin(), expected.rend()));
+  EXPECT_EQ(log_ratios(Look(many, 30, 8)), expected);
 }
 
 TEST_F(BackgroundOfATown, ABoxOfTheWholeTownLeavesNone) {
   ranges_.east_m = ranges_.north_m = 500.0;
   const Recorder recorder;
-  EXPECT_TRUE(Look(recorder, 20, 1).log_ratios.empty());
+  EXPECT_TRUE(Look(recorder, 20, 1).empty());
 }
 
 }  // namespace
