@@ -37,23 +37,7 @@ void AddBenchCommand(CLI::App& app, Context& context) {
                    "Draw priors around the truth: east,north,height,heading[,pitch,roll] "
                    "half-ranges in m and deg; also the ranges of the search")
       ->excludes("--protocol");
-  command
-      ->add_option("--query", arguments->queries, "These queries only; by commas, or repeated")
-      ->type_name("ID")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  command->add_option("--set-name", arguments->sets, "Queries of these sets only")
-      ->type_name("NAME")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  command->add_flag("--resume",
-                    arguments->resume,
-                    "Go on with what --out holds of the same work; begin where it holds nothing");
-  command
-      ->add_option("--shard",
-                   arguments->shard,
-                   "The i-th of n parts of the runs; `ridgeline merge` puts them together")
-      ->type_name("I/N");
+  AddKeptWorkOptions(*command, "runs", arguments->work);
   command
       ->add_option("--sensors",
                    arguments->sensors,

@@ -35,7 +35,7 @@ void NoteAssumptions(const Dataset& dataset, const Context& context) {
 // would show a part only.
 RunOutputs OutputsOf(const BenchArguments& arguments) {
   RunOutputs outputs = arguments.outputs;
-  if (outputs.report.empty() && !arguments.out.empty() && arguments.shard.empty() &&
+  if (outputs.report.empty() && !arguments.out.empty() && arguments.work.shard.empty() &&
       !arguments.no_report) {
     outputs.report = (fs::path(arguments.out) / "report.html").string();
   }
@@ -51,8 +51,8 @@ BenchTask TaskOfSensors(const BenchArguments& arguments, const Context& context)
 }
 
 BenchTask Chosen(const BenchArguments& arguments, BenchTask task) {
-  if (!arguments.queries.empty() || !arguments.sets.empty()) {
-    task.queries.Choose(arguments.queries, arguments.sets);
+  if (!arguments.work.queries.empty() || !arguments.work.sets.empty()) {
+    task.queries.Choose(arguments.work.queries, arguments.work.sets);
   }
   return task;
 }
@@ -66,17 +66,6 @@ void CheckSensors(const BenchArguments& arguments) {
                    "",
                    std::string("instruments beside ") + (has_protocol ? "--protocol" : "--perturb"),
                    "one of the two: both say what the priors are");
-}
-
-// Of results to be kept.
-void CheckKeeping(const BenchArguments& arguments) {
-  if (!arguments.out.empty()) return;
-  if (arguments.resume) {
-    throw InputError("--resume", "", "no --out", "--out with the folder of the results");
-  }
-  if (!arguments.shard.empty()) {
-    throw InputError("--shard", "", "no --out", "--out with a folder for its runs");
-  }
 }
 
 std::string ConfigName(const BenchArguments& arguments) {
@@ -121,7 +110,7 @@ BenchOptions BenchOptionsOf(const BenchArguments& arguments, const Context& cont
   bench.seeds.clear();
   for (int k = 0; k < arguments.seeds; ++k) bench.seeds.push_back(arguments.seed + k);
   bench.threads = context.threads;
-  if (!arguments.shard.empty()) bench.shard = ParseShard(arguments.shard);
+  if (!arguments.work.shard.empty()) bench.shard = ParseShard(arguments.work.shard);
   return bench;
 }
 
@@ -141,8 +130,8 @@ Provenance ProvenanceOf(const BenchArguments& arguments,
                                {"world", arguments.world},
                                {"perturb", arguments.perturb},
                                {"sensors", arguments.sensors},
-                               {"queries", arguments.queries},
-                               {"sets", arguments.sets},
+                               {"queries", arguments.work.queries},
+                               {"sets", arguments.work.sets},
                                {"seed", arguments.seed},
                                {"seeds", arguments.seeds},
                                {"config", arguments.config.config},
@@ -168,7 +157,7 @@ Provenance ProvenanceOf(const BenchArguments& arguments,
       provenance.inputs.push_back(std::move(input));
     }
   }
-  if (!arguments.shard.empty()) provenance.shard = ParseShard(arguments.shard);
+  if (!arguments.work.shard.empty()) provenance.shard = ParseShard(arguments.work.shard);
   return provenance;
 }
 
@@ -181,8 +170,8 @@ BenchArguments BenchArgumentsFrom(const Provenance& provenance) {
     arguments.world = json.at("world").get<std::string>();
     arguments.perturb = json.at("perturb").get<std::string>();
     arguments.sensors = json.at("sensors").get<std::string>();
-    arguments.queries = json.at("queries").get<std::vector<std::string>>();
-    arguments.sets = json.at("sets").get<std::vector<std::string>>();
+    arguments.work.queries = json.at("queries").get<std::vector<std::string>>();
+    arguments.work.sets = json.at("sets").get<std::vector<std::string>>();
     arguments.seed = json.at("seed").get<int>();
     arguments.seeds = json.at("seeds").get<int>();
     arguments.config.config = json.at("config").get<std::string>();
@@ -202,8 +191,7 @@ std::string CommandOf(const BenchArguments& arguments) {
   if (!arguments.world.empty()) command += " --world " + arguments.world;
   if (!arguments.perturb.empty()) command += " --perturb " + arguments.perturb;
   if (!arguments.sensors.empty()) command += " --sensors " + arguments.sensors;
-  for (const std::string& query : arguments.queries) command += " --query " + query;
-  for (const std::string& set : arguments.sets) command += " --set-name " + set;
+  command += ChoiceText(arguments.work);
   return command + " --seed " + std::to_string(arguments.seed) + " --seeds " +
          std::to_string(arguments.seeds);
 }
@@ -211,7 +199,7 @@ std::string CommandOf(const BenchArguments& arguments) {
 int RunBenchCommand(const BenchArguments& arguments, const Context& context) {
   if (!arguments.score_only.empty()) return RunScoreOnly(arguments, context);
   const LocalizerOptions options = OptionsOf(arguments);
-  CheckKeeping(arguments);
+  CheckKeeping(arguments.work, arguments.out, "runs");
   CheckSensors(arguments);
   BenchOptions bench = BenchOptionsOf(arguments, context);
   const OutFolder out_folder("--out", arguments.out);
@@ -222,7 +210,7 @@ int RunBenchCommand(const BenchArguments& arguments, const Context& context) {
   const Protocol& protocol = task.queries.protocol();
   std::optional<RunFolder> folder;
   if (!arguments.out.empty()) {
-    folder.emplace(arguments.out, ProvenanceOf(arguments, task, options), arguments.resume);
+    folder.emplace(arguments.out, ProvenanceOf(arguments, task, options), arguments.work.resume);
     bench.folder = &*folder;
     if (folder->found() > 0) {
       context.Note("going on with " + std::to_string(folder->found()) + " finished runs");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/kept_work.h"
 #include "cli/run_outputs.h"
 #include "eval/bench.h"
 #include "eval/bench_task.h"
@@ -23,14 +24,11 @@ struct BenchArguments {
   std::string perturb;
   std::string score_only;
   std::string sensors;
-  std::vector<std::string> queries;
-  std::vector<std::string> sets;
   bool no_report = false;
-  bool resume = false;
-  std::string shard;  // "2/3"; empty: the whole
   int seed = 1;
   int seeds = 1;
   RunOutputs outputs;
+  KeptWork work;
   ConfigArguments config;
   std::string options_json;  // the resolved options in place of `config`; of results to go on with
 };

@@ -36,8 +36,8 @@ void CheckArguments(const BenchArguments& arguments) {
                                                 {!arguments.sensors.empty(), "--sensors"},
                                                 {arguments.seed != defaults.seed, "--seed"},
                                                 {arguments.seeds != defaults.seeds, "--seeds"},
-                                                {arguments.resume, "--resume"},
-                                                {!arguments.shard.empty(), "--shard"}};
+                                                {arguments.work.resume, "--resume"},
+                                                {!arguments.work.shard.empty(), "--shard"}};
   for (const auto& [is_given, option] : given) {
     if (is_given) {
       throw InputError(option, "", "an option of a search", "nothing of it beside --score-only");
@@ -132,8 +132,8 @@ Provenance ProvenanceOfPoses(const BenchArguments& arguments,
   provenance.folder = fs::current_path().string();
   provenance.arguments = Json({{"dataset", arguments.dataset},
                                {"score_only", arguments.score_only},
-                               {"queries", arguments.queries},
-                               {"sets", arguments.sets},
+                               {"queries", arguments.work.queries},
+                               {"sets", arguments.work.sets},
                                {"config", arguments.config.config},
                                {"set", arguments.config.set}})
                              .dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -163,13 +163,13 @@ int RunScoreOnly(const BenchArguments& arguments, const Context& context) {
   CheckRunOutputs(arguments.outputs, true);
   Dataset dataset = ReadDataset(arguments.dataset);
   const std::vector<std::size_t> chosen =
-      ChooseQueries(dataset, arguments.queries, arguments.sets);
+      ChooseQueries(dataset, arguments.work.queries, arguments.work.sets);
   const std::map<std::string, Pose> poses = ReadPoses(arguments.score_only, dataset);
   CompleteCameras(dataset);
   std::optional<RunFolder> folder;
   if (!arguments.out.empty()) {
     folder.emplace(
-        arguments.out, ProvenanceOfPoses(arguments, dataset, chosen, options), arguments.resume);
+        arguments.out, ProvenanceOfPoses(arguments, dataset, chosen, options), arguments.work.resume);
   }
   World world = ReadWorld(RequestWith(dataset, poses));
   for (const std::string& warning : world.warnings) context.Warn(warning);

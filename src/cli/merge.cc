@@ -49,14 +49,14 @@ int RunMerge(const MergeArguments& arguments, const Context& context) {
     StudyArguments study = StudyArgumentsFrom(merged.whole);
     study.out = out;
     study.report = report;
-    study.resume = true;
+    study.work.resume = true;
     return RunStudyCommand(study, context);
   }
   BenchArguments bench = BenchArgumentsFrom(merged.whole);
   bench.out = out;
   bench.outputs.report = report;
   bench.no_report = arguments.no_report;
-  bench.resume = true;
+  bench.work.resume = true;
   return RunBenchCommand(bench, context);
 }
 

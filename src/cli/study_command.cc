@@ -29,25 +29,7 @@ void AddStudyCommand(CLI::App& app, Context& context) {
       ->type_name("NAME")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command
-      ->add_option("--query",
-                   arguments->queries,
-                   "These queries only; by commas, or repeated (default: all with a truth)")
-      ->type_name("ID")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  command->add_option("--set-name", arguments->sets, "Queries of these sets only")
-      ->type_name("NAME")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  command->add_flag("--resume",
-                    arguments->resume,
-                    "Go on with what --out holds of the same work; begin where it holds nothing");
-  command
-      ->add_option("--shard",
-                   arguments->shard,
-                   "The i-th of n parts of the maps; `ridgeline merge` puts them together")
-      ->type_name("I/N");
+  AddKeptWorkOptions(*command, "maps", arguments->work);
   command
       ->add_option(
           "--out", arguments->out, "Folder for tables (CSV), pictures (PNG, SVG) and maps (GeoTIFF)")

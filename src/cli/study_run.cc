@@ -29,8 +29,7 @@ using Json = nlohmann::ordered_json;
 std::string CommandOf(const StudyArguments& arguments) {
   std::string command = "ridgeline study " + arguments.dataset;
   for (const std::string& score : arguments.scores) command += " --score " + score;
-  for (const std::string& query : arguments.queries) command += " --query " + query;
-  for (const std::string& set : arguments.sets) command += " --set-name " + set;
+  command += ChoiceText(arguments.work);
   for (const std::string& name : arguments.vary) command += " --vary " + name;
   if (arguments.explore) command += " --explore";
   if (!arguments.config.config.empty()) command += " --config " + arguments.config.config;
@@ -65,17 +64,6 @@ Protocol ProtocolOf(const StudyArguments& arguments) {
   return protocol;
 }
 
-// Of results to be kept.
-void CheckKeeping(const StudyArguments& arguments) {
-  if (!arguments.out.empty()) return;
-  if (arguments.resume) {
-    throw InputError("--resume", "", "no --out", "--out with the folder of the results");
-  }
-  if (!arguments.shard.empty()) {
-    throw InputError("--shard", "", "no --out", "--out with a folder for its maps");
-  }
-}
-
 LocalizerOptions OptionsOf(const StudyArguments& arguments) {
   LocalizerOptions options;
   const VisitOptions visit = [&](OptionVisitor& v) { options.Visit(v); };
@@ -94,7 +82,7 @@ StudyOptions StudyOptionsOf(const StudyArguments& arguments, const Context& cont
   options.classes = arguments.classes;
   options.explore = arguments.explore;
   options.threads = context.threads;
-  if (!arguments.shard.empty()) options.shard = ParseShard(arguments.shard);
+  if (!arguments.work.shard.empty()) options.shard = ParseShard(arguments.work.shard);
   options.Validate();
   return options;
 }
@@ -118,8 +106,8 @@ Provenance ProvenanceOf(const StudyArguments& arguments,
   provenance.folder = fs::current_path().string();
   provenance.arguments = Json({{"dataset", arguments.dataset},
                                {"scores", arguments.scores},
-                               {"queries", arguments.queries},
-                               {"sets", arguments.sets},
+                               {"queries", arguments.work.queries},
+                               {"sets", arguments.work.sets},
                                {"vary", arguments.vary},
                                {"classes", arguments.classes},
                                {"protocol", arguments.protocol},
@@ -140,7 +128,7 @@ Provenance ProvenanceOf(const StudyArguments& arguments,
             {"options", Json::parse(OptionsToJson([&](OptionVisitor& v) { options.Visit(v); }))}})
           .dump(-1, ' ', false, Json::error_handler_t::replace);
   provenance.inputs = HashInputs(dataset, queries, "dataset");
-  if (!arguments.shard.empty()) provenance.shard = ParseShard(arguments.shard);
+  if (!arguments.work.shard.empty()) provenance.shard = ParseShard(arguments.work.shard);
   return provenance;
 }
 
@@ -180,8 +168,8 @@ StudyArguments StudyArgumentsFrom(const Provenance& provenance) {
   try {
     arguments.dataset = json.at("dataset").get<std::string>();
     arguments.scores = json.at("scores").get<Texts>();
-    arguments.queries = json.at("queries").get<Texts>();
-    arguments.sets = json.at("sets").get<Texts>();
+    arguments.work.queries = json.at("queries").get<Texts>();
+    arguments.work.sets = json.at("sets").get<Texts>();
     arguments.vary = json.at("vary").get<Texts>();
     arguments.classes = json.at("classes").get<std::vector<int>>();
     arguments.protocol = json.at("protocol").get<std::string>();
@@ -199,7 +187,7 @@ StudyArguments StudyArgumentsFrom(const Provenance& provenance) {
 
 int RunStudyCommand(const StudyArguments& arguments, const Context& context) {
   const LocalizerOptions localizer_options = OptionsOf(arguments);
-  CheckKeeping(arguments);
+  CheckKeeping(arguments.work, arguments.out, "maps");
   StudyOptions options = StudyOptionsOf(arguments, context);
   const std::vector<ScoreChoice> scores = ChooseScores(arguments.scores, localizer_options.score);
   const std::vector<Variation> variations = VariationsOf(arguments.vary);
@@ -215,7 +203,7 @@ int RunStudyCommand(const StudyArguments& arguments, const Context& context) {
   const BenchQueries source(protocol, std::move(with_cameras), localizer_options.search.space);
   const Dataset& dataset = source.dataset();
   const std::vector<std::size_t> queries =
-      StudyQueries(dataset, arguments.queries, arguments.sets);
+      StudyQueries(dataset, arguments.work.queries, arguments.work.sets);
   const StudyNames names{dataset, scores, variations};
   const OutFolder out_folder("--out", arguments.out);
   CheckFileToWrite("--report", arguments.report);
@@ -224,7 +212,7 @@ int RunStudyCommand(const StudyArguments& arguments, const Context& context) {
     folder.emplace(
         arguments.out,
         ProvenanceOf(arguments, dataset, queries, names, source.protocol(), localizer_options),
-        arguments.resume);
+        arguments.work.resume);
     options.folder = &*folder;
     if (folder->found() > 0) {
       context.Note("going on with " + std::to_string(folder->found()) + " finished maps");

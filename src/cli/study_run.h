@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/kept_work.h"
 #include "eval/provenance.h"
 
 namespace ridgeline {
@@ -16,16 +17,13 @@ struct StudyArguments {
   std::string out;
   std::string report;
   std::vector<std::string> scores;
-  std::vector<std::string> queries;
-  std::vector<std::string> sets;
   std::vector<std::string> vary;
   std::vector<int> classes = {50, 100, 200};
   std::string protocol;
   std::string perturb;
   std::uint64_t seed = 1;
   bool explore = false;
-  bool resume = false;
-  std::string shard;  // "2/3"; empty: the whole
+  KeptWork work;
   ConfigArguments config;
   std::string options_json;  // the resolved options in place of `config`; of results to go on with
 };

@@ -82,7 +82,7 @@ std::vector<Check> CheckBench(const fs::path& folder,
                               const Context& context) {
   const InFolder where_paths_hold(provenance.folder);
   BenchArguments arguments = BenchArgumentsFrom(provenance);
-  if (provenance.shard) arguments.shard = TextOf(*provenance.shard);
+  if (provenance.shard) arguments.work.shard = TextOf(*provenance.shard);
   try {
     const BenchTask task = TaskOf(arguments, OptionsOf(arguments), context);
     std::vector<Check> checks = CheckTables(folder, provenance, task.queries.dataset());

@@ -193,10 +193,10 @@ void AddHeadline(const BenchRun& run, const Crs& crs, ReportRun& report) {
   }
   const ReportPose& pose = *report.result;
   const bool is_map = !std::isfinite(found.confidence);
-  std::string text = run.is_given           ? "Pose of another system. "
-                     : is_map               ? "Least energy of the map. "
-                     : found.doubts.empty() ? "Pose found. "
-                                            : "Pose found, with doubts. ";
+  std::string text = run.is_given ? "Pose of another system. "
+                     : is_map     ? "Least energy of the map. "
+                     : found.status == LocalizationStatus::kOk ? "Pose found. "
+                                                               : "Pose found, in doubt. ";
   if (!run.is_given && !is_map) {
     text += std::string("It is ") + ConfidenceWords(found.confidence) +
             Text(" (%.2f) that it is within 2\u00a0m and 2° of the truth. ", found.confidence);
