@@ -99,9 +99,9 @@ class MapScore {
 // The background as the modes are refined, and how far the best mode stands above it then. Returns the
 // number of energies computed.
 std::uint64_t RefineBackground(const PoseScorer& scorer, int threads, SearchedPoses& found) {
-  constexpr std::size_t kRefined = 16;
+  constexpr std::size_t kRefined = 8;
   // The places are far apart: the first step is a large one.
-  constexpr RefineSteps kSteps{.first_m = 2.0, .first_deg = 1.0, .last_m = 0.06};
+  constexpr RefineSteps kSteps{.first_m = 2.0, .first_deg = 1.0, .last_m = 0.25};
   if (found.background.empty()) return 0;
   std::vector<ScoredPose> poses;
   for (const BackgroundPose& pose : found.background) poses.push_back(pose.best);
