@@ -25,8 +25,8 @@ void WarnOfEllipsoidalHeights(SourceModel& source,
   const std::optional<double> undulation =
       place ? GeoidUndulation(place->x(), place->y()) : std::nullopt;
   const std::string metres = undulation
-                                  ? "about " + ShortestText(std::round(*undulation)) + " m here"
-                                  : "tens of metres, 35 to 50 m in Central Europe";
+                                 ? "about " + ShortestText(std::round(*undulation)) + " m here"
+                                 : "tens of metres, 35 to 50 m in Central Europe";
   source.tally.Add("files with heights above the ellipsoid; heights above sea level differ by " +
                        metres + " (city.height_offset_m moves the model)",
                    source.file);
