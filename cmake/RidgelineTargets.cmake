@@ -16,6 +16,13 @@ if(RIDGELINE_SANITIZE)
   add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
 
+# Joins the sources of a target before they are compiled, if RIDGELINE_UNITY names its part.
+function(ridgeline_unity target part)
+  if(part IN_LIST RIDGELINE_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+  endif()
+endfunction()
+
 # ridgeline_add_module(NAME SOURCES a.cc ... [PUBLIC lib ...] [PRIVATE lib ...])
 function(ridgeline_add_module name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
@@ -27,6 +34,7 @@ function(ridgeline_add_module name)
                              $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/ridgeline>)
   target_link_libraries(ridgeline_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   target_link_libraries(ridgeline_${name} PRIVATE $<BUILD_INTERFACE:ridgeline_flags>)
+  ridgeline_unity(ridgeline_${name} ${name})
   set_property(GLOBAL APPEND PROPERTY RIDGELINE_MODULES ridgeline_${name})
 endfunction()
 
@@ -39,6 +47,14 @@ function(ridgeline_add_tests name)
                                               GTest::gtest_main)
   target_include_directories(${name}_tests PRIVATE ${PROJECT_SOURCE_DIR}/tests
                                                    ${PROJECT_BINARY_DIR}/generated)
+  if(RIDGELINE_PRECOMPILE)
+    target_precompile_headers(${name}_tests REUSE_FROM ridgeline_synthetic_city)
+    # What GCC 12 warns of falsely once it has read headers that way; builds without see the rest.
+    target_compile_options(
+      ${name}_tests PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-error=stringop-overflow
+                            -Wno-error=array-bounds -Wno-error=maybe-uninitialized>)
+  endif()
+  ridgeline_unity(${name}_tests ${name}_tests)
   include(GoogleTest)
   gtest_discover_tests(${name}_tests TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 120
                        PROPERTIES TIMEOUT 300)

@@ -91,13 +91,13 @@ std::string OddFocal(double focal, int width, int height) {
 
 // What a number that is no focal length in pixels is likely to be.
 std::string MeantFocal(double focal, int width, int height) {
-  constexpr double kFilmDiagonalMm = 43.266615305567875;
+  constexpr double kFilmMm = 43.266615305567875;
   constexpr double kMostPart = 5.0;  // of the longer side
   const double part_px = focal * std::max(width, height);
   if (focal < kMostPart && IsPlausibleFocal(part_px, width, height)) {
     return "; as a part of the longer side it is " + Rounded("%.1f px", part_px);
   }
-  const double film_px = focal * std::hypot(width, height) / kFilmDiagonalMm;
+  const double film_px = focal * std::hypot(width, height) / kFilmMm;
   if (DiagonalViewDeg(focal, width, height) > 90.0) {
     if (!IsPlausibleFocal(film_px, width, height)) return "";
     return "; millimetres? As a 35 mm equivalent it is " + Rounded("%.1f px", film_px);

@@ -3,22 +3,16 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <utility>
 
+#include "base/decimals.h"
 #include "base/error.h"
 #include "city/crs.h"
 #include "city/units.h"
 
 namespace ridgeline {
 namespace {
-
-std::string Number(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
 
 // Says how many metres are at stake where heights are above the ellipsoid, unless an offset is
 // given.
@@ -30,8 +24,9 @@ void WarnOfEllipsoidalHeights(SourceModel& source,
       LatitudeLongitude(projected, source.points.front().head<2>());
   const std::optional<double> undulation =
       place ? GeoidUndulation(place->x(), place->y()) : std::nullopt;
-  const std::string metres = undulation ? "about " + Number(std::round(*undulation)) + " m here"
-                                        : "tens of metres, 35 to 50 m in Central Europe";
+  const std::string metres = undulation
+                                 ? "about " + ShortestText(std::round(*undulation)) + " m here"
+                                 : "tens of metres, 35 to 50 m in Central Europe";
   source.tally.Add("files with heights above the ellipsoid; heights above sea level differ by " +
                        metres + " (city.height_offset_m moves the model)",
                    source.file);
@@ -61,7 +56,7 @@ void WarnOfSystem(SourceModel& source, const Crs& written, const ToProjected& pr
   }
   const std::optional<CrsFit> fit = FitAt(projection.crs(), source.points.front().head<2>());
   if (fit && fit->outside_deg > kReachDeg) {
-    source.tally.Add("files with coordinates " + Number(std::round(fit->outside_deg)) +
+    source.tally.Add("files with coordinates " + ShortestText(std::round(fit->outside_deg)) +
                          " degrees outside of where " + CrsName(projection.crs()) +
                          " is used (is the system right? --model-crs overrides it)",
                      source.file);

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <string>
 
 #include "base/error.h"
+#include "city/box_text.h"
 #include "city/city_sources.h"
 #include "city/format/model_files.h"
 #include "city/mesh/build_model.h"
@@ -16,25 +16,6 @@
 
 namespace ridgeline {
 namespace fs = std::filesystem;
-namespace {
-
-std::string Number(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
-// "654021..654296 E, 5411980..5412250 N".
-std::string BoxText(const Eigen::AlignedBox2d& box) {
-  const auto whole = [](double value) {
-    return std::isfinite(value) ? std::to_string(static_cast<long long>(std::floor(value)))
-                                : Number(value);
-  };
-  return whole(box.min().x()) + ".." + whole(box.max().x()) + " E, " + whole(box.min().y()) + ".." +
-         whole(box.max().y()) + " N";
-}
-
-}  // namespace
 
 void CityOptions::Validate() const {
   CheckOptions(*this, "city");

@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "base/gdal_handles.h"
 #include "base/limits.h"
+#include "city/box_text.h"
 #include "city/crs.h"
 #include "city/format/web_file.h"
 #include "city/open_raster.h"
@@ -319,14 +320,6 @@ HeightGrid ReadWindow(RasterValues& values,
     for (const double height : row) grid.heights.push_back(static_cast<float>(height - origin.z()));
   }
   return grid;
-}
-
-std::string BoxText(const Eigen::AlignedBox2d& box) {
-  const auto number = [](double v) {
-    return std::to_string(static_cast<long long>(std::floor(v)));
-  };
-  return number(box.min().x()) + ".." + number(box.max().x()) + " E, " + number(box.min().y()) +
-         ".." + number(box.max().y()) + " N";
 }
 
 // Border of the whole raster in its own system.

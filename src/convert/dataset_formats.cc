@@ -26,16 +26,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kExpected =
+constexpr const char* kExpectedFormats =
     "a dataset.json, a COLMAP folder (cameras.txt, images.txt), a LoD-Loc folder (intrinsic.txt), "
     "the folder of egenioussBench, a list of visuallocalization.net, a reconstruction.json of "
     "OpenSfM, a table with omega, phi, kappa, or results of bench or localize (--from FORMAT tells "
     "which)";
-
-bool IsFile(const fs::path& path) {
-  std::error_code error;
-  return fs::is_regular_file(path, error);
-}
 
 std::string FormatOfJson(const fs::path& path) {
   const std::string text = ReadFile(path);
@@ -62,14 +57,14 @@ std::string FormatOfText(const fs::path& path) {
   return "";
 }
 
-using Reader = Dataset (*)(const fs::path&, const ConvertOptions&);
+using DatasetReader = Dataset (*)(const fs::path&, const ConvertOptions&);
 
 Dataset ReadDatasetFile(const fs::path& path, const ConvertOptions& /*options*/) {
   return ReadDataset(path);
 }
 
-const std::map<std::string, Reader>& Readers() {
-  static const std::map<std::string, Reader> readers = {
+const std::map<std::string, DatasetReader>& DatasetReaders() {
+  static const std::map<std::string, DatasetReader> readers = {
       {"dataset", ReadDatasetFile},
       {"colmap", ReadColmapModel},
       {"visloc", ReadVisualLocalizationList},
@@ -117,7 +112,7 @@ void CheckFormat(const std::string& option,
 const std::vector<std::string>& InputFormats() {
   static const std::vector<std::string> formats = [] {
     std::vector<std::string> names;
-    for (const auto& [name, reader] : Readers()) names.push_back(name);
+    for (const auto& [name, reader] : DatasetReaders()) names.push_back(name);
     return names;
   }();
   return formats;
@@ -131,19 +126,23 @@ const std::vector<std::string>& OutputFormats() {
 
 std::string FormatOfInput(const fs::path& path) {
   std::error_code error;
-  if (!fs::exists(path, error)) throw InputError(path.string(), "", "no such file", kExpected);
+  if (!fs::exists(path, error)) {
+    throw InputError(path.string(), "", "no such file", kExpectedFormats);
+  }
   std::string format;
   if (fs::is_directory(path, error)) {
-    if (IsFile(path / "dataset.json")) format = "dataset";
-    if (IsFile(path / "images.txt")) format = "colmap";
-    if (IsFile(path / "intrinsic.txt")) format = "lodloc";
+    if (fs::is_regular_file(path / "dataset.json", error)) format = "dataset";
+    if (fs::is_regular_file(path / "images.txt", error)) format = "colmap";
+    if (fs::is_regular_file(path / "intrinsic.txt", error)) format = "lodloc";
     if (IsEgenioussFolder(path)) format = "egeniouss";
   } else if (path.extension() == ".json") {
     format = FormatOfJson(path);
   } else {
     format = FormatOfText(path);
   }
-  if (format.empty()) throw InputError(path.string(), "", "no format that is known", kExpected);
+  if (format.empty()) {
+    throw InputError(path.string(), "", "no format that is known", kExpectedFormats);
+  }
   return format;
 }
 
@@ -164,7 +163,7 @@ std::string FormatOfOutput(const fs::path& path) {
 Dataset ReadInput(const fs::path& path, const std::string& format, const ConvertOptions& options) {
   const std::string known = format.empty() ? FormatOfInput(path) : format;
   CheckFormat("--from", known, InputFormats());
-  Dataset dataset = Readers().at(known)(path, options);
+  Dataset dataset = DatasetReaders().at(known)(path, options);
   if (known != "dataset") dataset.file = path;
   NameQueries(dataset, path.string());
   CheckPoses(dataset);

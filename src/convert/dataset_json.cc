@@ -9,7 +9,7 @@ namespace ridgeline {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr int kPositionDecimals = 7;
 constexpr int kAngleDecimals = 9;
@@ -21,15 +21,15 @@ std::string PathFrom(const fs::path& path, const fs::path& folder) {
 
 double Metres(double value) { return RoundedTo(value, kPositionDecimals); }
 
-Json CameraJson(const CameraIntrinsics& camera) {
+OrderedJson CameraJson(const CameraIntrinsics& camera) {
   return {{"model", camera.model},
           {"width", camera.width},
           {"height", camera.height},
           {"params", camera.params}};
 }
 
-Json PriorJson(const PosePrior& prior) {
-  Json json;
+OrderedJson PriorJson(const PosePrior& prior) {
+  OrderedJson json;
   json["position"] = {Metres(prior.position_in_world.x()), Metres(prior.position_in_world.y())};
   if (prior.height_in_world) json["position"].push_back(Metres(*prior.height_in_world));
   const auto angle = [&](const char* key, const std::optional<double>& value) {
@@ -41,7 +41,7 @@ Json PriorJson(const PosePrior& prior) {
   return json;
 }
 
-Json TruthJson(const Pose& pose) {
+OrderedJson TruthJson(const Pose& pose) {
   const Eigen::Vector3d& p = pose.center_in_world;
   const Eigen::Quaterniond& q = pose.cam_from_world;
   return {{"position", {Metres(p.x()), Metres(p.y()), Metres(p.z())}},
@@ -51,15 +51,15 @@ Json TruthJson(const Pose& pose) {
 }  // namespace
 
 std::string DatasetJson(const Dataset& dataset, const fs::path& folder) {
-  Json json;
+  OrderedJson json;
   json["name"] = dataset.name;
   if (!dataset.crs.empty()) json["crs"] = dataset.crs;
-  json["model"] = Json::array();
+  json["model"] = OrderedJson::array();
   for (const fs::path& model : dataset.model) json["model"].push_back(PathFrom(model, folder));
   if (dataset.dtm) json["dtm"] = PathFrom(*dataset.dtm, folder);
-  json["queries"] = Json::array();
+  json["queries"] = OrderedJson::array();
   for (const Query& query : dataset.queries) {
-    Json entry;
+    OrderedJson entry;
     entry["id"] = query.id;
     if (!query.set.empty()) entry["set"] = query.set;
     entry["image"] = PathFrom(query.image, folder);
@@ -69,7 +69,7 @@ std::string DatasetJson(const Dataset& dataset, const fs::path& folder) {
     if (query.truth) entry["truth"] = TruthJson(*query.truth);
     json["queries"].push_back(std::move(entry));
   }
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump(1, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 }  // namespace ridgeline

@@ -11,7 +11,7 @@
 namespace ridgeline {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr int kDegreeDecimals = 9;
 
@@ -78,12 +78,12 @@ std::string Tag(const char* name, double value, int decimals) {
 
 std::string PosesGeoJson(const Dataset& dataset) {
   const Crs crs = CrsOf(dataset);
-  Json json = {{"type", "FeatureCollection"}, {"features", Json::array()}};
+  OrderedJson json = {{"type", "FeatureCollection"}, {"features", OrderedJson::array()}};
   for (const Query& query : dataset.queries) {
     if (!query.truth) continue;
     const View view = ViewOf(query, crs, dataset.file.string());
     const Eigen::Vector3d& p = query.truth->center_in_world;
-    Json properties = {{"id", query.id}};
+    OrderedJson properties = {{"id", query.id}};
     if (!query.set.empty()) properties["set"] = query.set;
     properties["image"] = query.image.filename().string();
     properties["heading_deg"] = RoundedTo(view.grid.heading_deg, 6);
@@ -99,7 +99,7 @@ std::string PosesGeoJson(const Dataset& dataset) {
            {"coordinates", {view.longitude_deg, view.latitude_deg, RoundedTo(p.z(), 4)}}}},
          {"properties", std::move(properties)}});
   }
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump(1, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 std::string PosesKml(const Dataset& dataset) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "eval/binomial.h"
 #include "eval/pose_json.h"
 #include "eval/run_folder.h"
 #include "eval/run_json.h"
@@ -15,7 +16,6 @@ namespace {
 
 // Quantile of the chi-square distribution with two degrees of freedom at 0.95: -2 ln 0.05.
 constexpr double kChiSquare95 = 5.991464547107979;
-constexpr double kNormal95 = 1.959963984540054;
 
 }  // namespace
 

@@ -7,7 +7,6 @@
 namespace ridgeline {
 namespace {
 
-constexpr double kNormal95 = 1.959963984540054;
 constexpr double kTail = 0.025;
 
 // Probability of at least `hits` of `trials`, each with probability p in (0, 1).

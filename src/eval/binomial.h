@@ -3,6 +3,9 @@
 
 namespace ridgeline {
 
+// Within so many standard deviations a normal error is in 95 % of cases.
+inline constexpr double kNormal95 = 1.959963984540054;
+
 struct Interval95 {
   double lower = 0.0;
   double upper = 0.0;

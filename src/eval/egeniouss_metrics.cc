@@ -8,7 +8,7 @@
 namespace ridgeline {
 namespace {
 
-EgenioussSpread SpreadOf(std::vector<double> values) {
+EgenioussSpread MedianAndMean(std::vector<double> values) {
   EgenioussSpread spread;
   if (values.empty()) return spread;
   std::sort(values.begin(), values.end());
@@ -52,8 +52,8 @@ EgenioussMetrics EgenioussMetricsOf(std::span<const RunRecord> runs) {
   for (std::size_t b = 0; b < hits.size(); ++b) {
     metrics.share[b] = static_cast<double>(hits[b]) / metrics.poses;
   }
-  metrics.translation_m = SpreadOf(std::move(translations));
-  metrics.rotation_deg = SpreadOf(std::move(rotations));
+  metrics.translation_m = MedianAndMean(std::move(translations));
+  metrics.rotation_deg = MedianAndMean(std::move(rotations));
   return metrics;
 }
 

@@ -8,6 +8,7 @@
 #include "base/decimals.h"
 #include "camera/local_frame.h"
 #include "city/crs.h"
+#include "eval/binomial.h"
 #include "eval/distinct_modes.h"
 
 namespace ridgeline {
@@ -59,7 +60,6 @@ Json JsonOf(const std::vector<Assumption>& assumptions) {
 // Semi-axes of the 95 % ellipse and the direction of the longer one.
 Json EllipseJson(const PoseSpread& spread) {
   constexpr double kChiSquare95 = 5.991464547107979;  // two degrees of freedom
-  constexpr double kNormal95 = 1.959963984540054;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(spread.position_covariance);
   const Eigen::Vector2d longest = solver.eigenvectors().col(1);
   const double direction =

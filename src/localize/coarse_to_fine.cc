@@ -11,7 +11,7 @@
 namespace ridgeline {
 namespace {
 
-constexpr float kNone = -std::numeric_limits<float>::infinity();
+constexpr float kLowest = -std::numeric_limits<float>::infinity();
 // Poses this far below the best [nat] are not looked at closely.
 constexpr float kMargin = 15.0f;
 // Places and headings first looked at lie about this far apart, or as far as in the volume.
@@ -99,12 +99,12 @@ class Cascade {
       const std::vector<float> highest = HighestAround(p, first);
       for (std::uint32_t o = 0; o < volume_.orientations(); ++o) {
         const std::size_t tilt = o % volume_.tilts.size();
-        float around = kNone;
+        float around = kLowest;
         for (const std::size_t k : heading_.Around(o / volume_.tilts.size())) {
           around = std::max(around, highest[OrientationOf(heading_.first()[k], tilt)]);
         }
         result.log_ratios[p * volume_.orientations() + o] = around;
-        if (around > kNone && around >= best - kMargin) looks[p].push_back(o);
+        if (around > kLowest && around >= best - kMargin) looks[p].push_back(o);
       }
     }
     return looks;
@@ -153,7 +153,7 @@ class Cascade {
     const std::size_t e = place % volume_.east_m.size();
     const std::size_t n = place / volume_.east_m.size() % volume_.north_m.size();
     const std::size_t h = place / volume_.east_m.size() / volume_.north_m.size();
-    std::vector<float> highest(volume_.orientations(), kNone);
+    std::vector<float> highest(volume_.orientations(), kLowest);
     for (const std::size_t i : height_.Around(h)) {
       for (const std::size_t j : north_.Around(n)) {
         for (const std::size_t k : east_.Around(e)) {

@@ -13,7 +13,7 @@
 namespace ridgeline {
 namespace {
 
-constexpr float kNone = -std::numeric_limits<float>::infinity();
+constexpr float kNoRatio = -std::numeric_limits<float>::infinity();
 
 // Symmetric offsets that reach both ends of the half-range, at most `step` apart.
 std::vector<double> Offsets(double half_range, double step) {
@@ -75,7 +75,7 @@ PoseVolume EmptyVolume(const PoseSpace& space,
   volume.height_m = HeightOffsets(ranges.height_m, spacing_m);
   volume.heading_deg = HeadingOffsets(ranges.heading_deg, options.heading_step_deg);
   volume.tilts.assign(tilts.begin(), tilts.end());
-  volume.log_ratios.assign(volume.positions() * volume.orientations(), kNone);
+  volume.log_ratios.assign(volume.positions() * volume.orientations(), kNoRatio);
   return volume;
 }
 
@@ -134,7 +134,8 @@ std::vector<ScoredPose> FindModes(const PoseVolume& volume,
   const double separation_m = std::max(options.mode_separation_m, 1.2 * spacing_m);
   std::vector<ScoredPose> modes;
   for (const std::size_t index : order) {
-    if (volume.log_ratios[index] == kNone || static_cast<int>(modes.size()) == options.modes) break;
+    if (volume.log_ratios[index] == kNoRatio) break;
+    if (static_cast<int>(modes.size()) == options.modes) break;
     const PoseSpace::Offset o = volume.OffsetOf(index, space.center_angles());
     const bool is_near = std::any_of(modes.begin(), modes.end(), [&](const ScoredPose& mode) {
       const PoseSpace::Offset& m = mode.offset;
@@ -161,7 +162,7 @@ EnergyMap MapOf(const PoseVolume& volume, const PoseSpace& space, const CityMode
                                   : 1.0;
   const std::size_t cells = static_cast<std::size_t>(map.columns) * map.rows;
   std::vector<std::size_t> best(cells, 0);
-  std::vector<float> log_ratios(cells, kNone);
+  std::vector<float> log_ratios(cells, kNoRatio);
   for (std::size_t i = 0; i < volume.log_ratios.size(); ++i) {
     const std::size_t cell = i / volume.orientations() % cells;
     if (volume.log_ratios[i] <= log_ratios[cell]) continue;
@@ -169,7 +170,7 @@ EnergyMap MapOf(const PoseVolume& volume, const PoseSpace& space, const CityMode
     best[cell] = i;
   }
   for (std::size_t cell = 0; cell < cells; ++cell) {
-    const bool known = log_ratios[cell] != kNone;
+    const bool known = log_ratios[cell] != kNoRatio;
     const float nan = std::numeric_limits<float>::quiet_NaN();
     map.energies.push_back(known ? static_cast<float>(Score::EnergyOf(log_ratios[cell])) : nan);
     map.headings_deg.push_back(

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kBuildings = 3;
 // A building that could tell less is not asked.
-constexpr double kTellingNat = 2.0;
+constexpr double kTellingRoofNat = 2.0;
 constexpr double kLeastGain = 6.0;
 constexpr std::array<double, 4> kShiftsM = {-1.5, -0.75, 0.75, 1.5};
 constexpr double kBetweenM = 0.375;
@@ -82,7 +82,7 @@ std::optional<RoofShift> RoofInDoubt(const RoofTrial& trial,
         std::any_of(trial.settled.begin(), trial.settled.end(), [&](const RoofShift& s) {
           return s.building == fit.building;
         });
-    if (is_settled || fit.information() < kTellingNat) continue;
+    if (is_settled || fit.information() < kTellingRoofNat) continue;
     for (const double up : kShiftsM) attempt({fit.building, up});
   }
   if (highest < kLeastGain) return std::nullopt;

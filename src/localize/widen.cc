@@ -9,7 +9,7 @@
 namespace ridgeline {
 namespace {
 
-struct Parameter {
+struct Dimension {
   const char* name;
   const char* unit;
   double PoseSpace::Offset::*offset;
@@ -18,7 +18,7 @@ struct Parameter {
   bool is_border;
 };
 
-constexpr Parameter kParameters[] = {
+constexpr Dimension kParameters[] = {
     {"east", "m", &PoseSpace::Offset::east_m, &PoseSpaceOptions::east_m, 1000.0, true},
     {"north", "m", &PoseSpace::Offset::north_m, &PoseSpaceOptions::north_m, 1000.0, true},
     {"height", "m", &PoseSpace::Offset::height_m, &PoseSpaceOptions::height_m, 1000.0, false},
@@ -29,7 +29,7 @@ constexpr Parameter kParameters[] = {
 // The truth is not in a box of that size: the next is larger by this much.
 constexpr double kFurtherM = 30.0;
 
-bool IsReached(const Parameter& parameter, const PoseSpace::Offset& offset, const PoseSpace& space) {
+bool IsReached(const Dimension& parameter, const PoseSpace::Offset& offset, const PoseSpace& space) {
   constexpr double kNear = 0.97;
   const double range = space.ranges().*parameter.range;
   return range > 0.0 && range < parameter.whole && std::abs(offset.*parameter.offset) > kNear * range;
@@ -39,7 +39,7 @@ bool IsReached(const Parameter& parameter, const PoseSpace::Offset& offset, cons
 
 std::vector<std::string> LimitsReached(const PoseSpace::Offset& offset, const PoseSpace& space) {
   std::vector<std::string> names;
-  for (const Parameter& parameter : kParameters) {
+  for (const Dimension& parameter : kParameters) {
     if (!IsReached(parameter, offset, space)) continue;
     char text[60];
     std::snprintf(text,
@@ -54,14 +54,14 @@ std::vector<std::string> LimitsReached(const PoseSpace::Offset& offset, const Po
 }
 
 bool IsOnBorder(const PoseSpace::Offset& offset, const PoseSpace& space) {
-  return std::any_of(std::begin(kParameters), std::end(kParameters), [&](const Parameter& p) {
+  return std::any_of(std::begin(kParameters), std::end(kParameters), [&](const Dimension& p) {
     return p.is_border && IsReached(p, offset, space);
   });
 }
 
 PoseSpaceOptions Widened(const PoseSpace& space, const PoseSpace::Offset& offset, bool everywhere) {
   PoseSpaceOptions wide = space.ranges();
-  for (const Parameter& parameter : kParameters) {
+  for (const Dimension& parameter : kParameters) {
     if (!IsReached(parameter, offset, space)) continue;
     wide.*parameter.range = std::min(2.0 * (wide.*parameter.range), parameter.whole);
   }

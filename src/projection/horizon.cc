@@ -11,7 +11,7 @@
 namespace ridgeline {
 namespace {
 
-constexpr int kClusterSize = 8;
+constexpr int kEdgesInBox = 8;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
 Eigen::Vector3d Normal(const CityModel& model, std::uint32_t triangle) {
@@ -153,7 +153,7 @@ Horizon::Horizon(const CityModel& model,
 void Horizon::BuildTree() {
   std::vector<Eigen::AlignedBox3f> boxes(edges_.size());
   for (std::size_t i = 0; i < edges_.size(); ++i) boxes[i].extend(edges_[i].a).extend(edges_[i].b);
-  const BoxTree tree = BuildBoxTree(boxes, kClusterSize);
+  const BoxTree tree = BuildBoxTree(boxes, kEdgesInBox);
   if (tree.nodes.empty()) return;
   std::vector<Edge> ordered;
   ordered.reserve(edges_.size());

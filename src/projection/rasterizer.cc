@@ -9,7 +9,7 @@
 namespace ridgeline {
 namespace {
 
-constexpr double kNearPlane = 0.1;  // [m]
+constexpr double kNearPlaneM = 0.1;  // [m]
 
 // Convex polygon in homogeneous image points (x_px * z, y_px * z, z); a clipped triangle has four.
 struct Polygon {
@@ -25,8 +25,8 @@ Polygon ClipNear(const std::array<Eigen::Vector3d, 3>& triangle) {
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d& a = triangle[k];
     const Eigen::Vector3d& b = triangle[(k + 1) % 3];
-    const double da = a.z() - kNearPlane;
-    const double db = b.z() - kNearPlane;
+    const double da = a.z() - kNearPlaneM;
+    const double db = b.z() - kNearPlaneM;
     if (da >= 0.0) polygon.Add(a);
     if ((da >= 0.0) != (db >= 0.0)) polygon.Add(a + da / (da - db) * (b - a));
   }

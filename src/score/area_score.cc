@@ -9,7 +9,7 @@ namespace ridgeline {
 namespace {
 
 // Surfaces whose normal rises more than this are roofs, whatever they are called.
-constexpr float kRoofNormal = 0.25f;
+constexpr float kRoofUpward = 0.25f;
 
 bool IsBuilding(AreaClass c) {
   return c == AreaClass::kBuilding || c == AreaClass::kRoof || c == AreaClass::kWall;
@@ -67,7 +67,7 @@ AreaClass AreaScore::ModelClass(const PositionView& view, const Eigen::Vector3f&
   if (hit.surface_class == SurfaceClass::kGround || hit.surface_class == SurfaceClass::kTerrain) {
     return AreaClass::kGround;
   }
-  return hit.normal.z() > kRoofNormal ? AreaClass::kRoof : AreaClass::kWall;
+  return hit.normal.z() > kRoofUpward ? AreaClass::kRoof : AreaClass::kWall;
 }
 
 double AreaScore::LogRatio(const PositionView& view,

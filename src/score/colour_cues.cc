@@ -56,13 +56,13 @@ class ColourCues final : public Cue {
   TiltedRays rays_{{}, {}};
 };
 
-constexpr CueName kNames[] = {{"regions", 29.8}, {"facade_colours", 0.0218}};
+constexpr CueName kColourNames[] = {{"regions", 29.8}, {"facade_colours", 0.0218}};
 
 }  // namespace
 
 extern const CuePlugin kColourCues;
 constinit const CuePlugin kColourCues = {
-    .names = kNames,
+    .names = kColourNames,
     .parts = {.edges_and_skyline = false, .surfaces = true},
     .declare = [](OptionGroups& options) { options.Add<ColourOptions>("colours"); },
     .make = [](const CueContext& c) -> std::shared_ptr<const Cue> {

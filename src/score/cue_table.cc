@@ -14,14 +14,14 @@ extern const CuePlugin kColourCues;
 
 namespace {
 
-std::vector<const CuePlugin*>& Table() {
+std::vector<const CuePlugin*>& Cues() {
   static std::vector<const CuePlugin*> table = {&kEdgeCues, &kSkyCue, &kFacadeCue, &kColourCues};
   return table;
 }
 
 }  // namespace
 
-std::span<const CuePlugin* const> CueTable() { return Table(); }
+std::span<const CuePlugin* const> CueTable() { return Cues(); }
 
 void AddCue(const CuePlugin& plugin) {
   const std::vector<std::string> taken = CueNames();
@@ -30,7 +30,7 @@ void AddCue(const CuePlugin& plugin) {
       throw InputError("", "cue", "\"" + std::string(cue.name) + "\" again", "a name of its own");
     }
   }
-  Table().push_back(&plugin);
+  Cues().push_back(&plugin);
 }
 
 std::vector<std::string> CueNames() {

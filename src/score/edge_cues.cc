@@ -39,17 +39,17 @@ class EdgeCues final : public Cue {
 };
 
 // In the order of EdgeKind.
-constexpr CueName kNames[kEdgeKinds] = {{"skyline_edges", 0.097},
-                                        {"occlusions", 0.077},
-                                        {"folds", 0.039},
-                                        {"ground_lines", 0.147},
-                                        {"seams", 0.279}};
+constexpr CueName kEdgeNames[kEdgeKinds] = {{"skyline_edges", 0.097},
+                                            {"occlusions", 0.077},
+                                            {"folds", 0.039},
+                                            {"ground_lines", 0.147},
+                                            {"seams", 0.279}};
 
 }  // namespace
 
 extern const CuePlugin kEdgeCues;
 constinit const CuePlugin kEdgeCues = {
-    .names = kNames,
+    .names = kEdgeNames,
     .parts = {.edges_and_skyline = true, .surfaces = false},
     .declare = [](OptionGroups& options) { options.Add<LineLikelihoodOptions>("lines"); },
     .make = [](const CueContext& c) -> std::shared_ptr<const Cue> {

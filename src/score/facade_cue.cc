@@ -61,13 +61,13 @@ std::shared_ptr<const Cue> FacadeCue::ForTilts(
   return std::make_shared<TiltedFacadeCue>(model_, directions_, cam_from_level);
 }
 
-constexpr CueName kNames[] = {{"facades", 1.08}};
+constexpr CueName kFacadeNames[] = {{"facades", 1.08}};
 
 }  // namespace
 
 extern const CuePlugin kFacadeCue;
 constinit const CuePlugin kFacadeCue = {
-    .names = kNames,
+    .names = kFacadeNames,
     .parts = {.edges_and_skyline = false, .surfaces = true},
     .declare = [](OptionGroups& options) { options.Add<FacadeDirectionOptions>("facades"); },
     .make = [](const CueContext& c) -> std::shared_ptr<const Cue> {

@@ -12,7 +12,6 @@ namespace {
 
 using simd::Float4;
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr int kBins = 36;
 // The background is this share uniform, so that a picture of one direction still tells something.
 constexpr float kUniformShare = 0.3f;
@@ -23,7 +22,7 @@ constexpr int kTableSize = kStepsPerSquare * kMaxSquare + 2;
 
 int BinOf(const LineSegment& segment) {
   const Eigen::Vector2f d = segment.b - segment.a;
-  const float turns = std::atan2(d.y(), d.x()) / kPi;
+  const float turns = std::atan2(d.y(), d.x()) / std::numbers::pi_v<float>;
   return (static_cast<int>(std::floor(turns * kBins)) + 2 * kBins) % kBins;
 }
 
@@ -40,7 +39,7 @@ std::array<float, kBins> DirectionDensity(std::span<const LineSegment> segments)
   }
   for (float& value : density) {
     const float relative = total > 0.0f ? value * kBins / total : 1.0f;
-    value = ((1.0f - kUniformShare) * relative + kUniformShare) / kPi;
+    value = ((1.0f - kUniformShare) * relative + kUniformShare) / std::numbers::pi_v<float>;
   }
   return density;
 }

@@ -15,7 +15,7 @@
 namespace ridgeline {
 namespace {
 
-constexpr int kDirections = OrientedDistanceField::kDirections;
+constexpr int kGradientDirections = OrientedDistanceField::kDirections;
 constexpr int kLevels = 4096;  // of gradients, up to the picture's largest
 // Smaller gradients are rounding [grey values / px].
 constexpr float kNoise = 0.02f;
@@ -44,12 +44,12 @@ GradientScore::GradientScore(const cv::Mat& picture,
 
   const std::size_t pixels = magnitude.total();
   const float scale = static_cast<float>((kLevels - 1) / largest);
-  std::vector<std::uint16_t> levels(kDirections * pixels);
+  std::vector<std::uint16_t> levels(kGradientDirections * pixels);
   std::array<std::uint64_t, kLevels + 1> smaller{};  // first counts, then sums
-  for (int direction = 0; direction < kDirections; ++direction) {
+  for (int direction = 0; direction < kGradientDirections; ++direction) {
     // Across the middle of the direction bin.
     const float angle =
-        (static_cast<float>(direction) + 0.5f) * std::numbers::pi_v<float> / kDirections;
+        (static_cast<float>(direction) + 0.5f) * std::numbers::pi_v<float> / kGradientDirections;
     const float nx = -std::sin(angle);
     const float ny = std::cos(angle);
     const float* x = gx.ptr<float>();

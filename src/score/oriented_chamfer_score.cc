@@ -11,7 +11,7 @@
 namespace ridgeline {
 namespace {
 
-constexpr int kDirections = OrientedDistanceField::kDirections;
+constexpr int kTurns = OrientedDistanceField::kDirections;
 constexpr int kFar = 255;
 
 }  // namespace
@@ -24,8 +24,8 @@ OrientedChamferScore::OrientedChamferScore(const OrientedDistanceField& field,
       limit_units_(static_cast<float>(std::min<double>(
           kFar, options.max_distance_width * camera.width * OrientedDistanceField::kUnitsPerPx))) {
   const std::size_t pixels = static_cast<std::size_t>(field.width()) * field.height();
-  costs_.resize(kDirections * pixels);
-  for (int direction = 0; direction < kDirections; ++direction) {
+  costs_.resize(kTurns * pixels);
+  for (int direction = 0; direction < kTurns; ++direction) {
     std::uint8_t* costs = &costs_[direction * pixels];
     for (int y = 0; y < field.height(); ++y) {
       for (int x = 0; x < field.width(); ++x) *costs++ = field.Distance(direction, x, y);
@@ -33,7 +33,7 @@ OrientedChamferScore::OrientedChamferScore(const OrientedDistanceField& field,
   }
   has_lines_ = std::any_of(costs_.begin(), costs_.end(), [](std::uint8_t c) { return c == 0; });
   // A step to the next direction costs its angle; two turns each way reach all of them.
-  constexpr double kStepDeg = 180.0 / kDirections;
+  constexpr double kStepDeg = 180.0 / kTurns;
   const int step =
       std::max(1,
                static_cast<int>(std::lround(kStepDeg * options.per_degree_width * camera.width *
@@ -45,8 +45,8 @@ OrientedChamferScore::OrientedChamferScore(const OrientedDistanceField& field,
       target[i] = static_cast<std::uint8_t>(std::min<int>(target[i], source[i] + step));
     }
   };
-  for (int k = 1; k < 2 * kDirections; ++k) relax(k % kDirections, (k - 1) % kDirections);
-  for (int k = 2 * kDirections - 1; k > 0; --k) relax((k - 1) % kDirections, k % kDirections);
+  for (int k = 1; k < 2 * kTurns; ++k) relax(k % kTurns, (k - 1) % kTurns);
+  for (int k = 2 * kTurns - 1; k > 0; --k) relax((k - 1) % kTurns, k % kTurns);
 }
 
 double OrientedChamferScore::EnergyOfEdges(std::span<const ProjectedSegment> segments) const {

@@ -19,7 +19,7 @@ extern const ScorePlugin kZbufferLineEnergyScore;
 
 namespace {
 
-std::vector<const ScorePlugin*>& Table() {
+std::vector<const ScorePlugin*>& Scores() {
   static std::vector<const ScorePlugin*> table = {&kEvidenceScore,
                                                   &kLineEnergyScore,
                                                   &kZbufferLineEnergyScore,
@@ -34,7 +34,7 @@ std::vector<const ScorePlugin*>& Table() {
 
 }  // namespace
 
-std::span<const ScorePlugin* const> ScoreTable() { return Table(); }
+std::span<const ScorePlugin* const> ScoreTable() { return Scores(); }
 
 void AddScore(const ScorePlugin& plugin) {
   const std::vector<std::string> taken = ScoreNames();
@@ -42,7 +42,7 @@ void AddScore(const ScorePlugin& plugin) {
     throw InputError(
         "", "score", "\"" + std::string(plugin.name) + "\" again", "a name of its own");
   }
-  Table().push_back(&plugin);
+  Scores().push_back(&plugin);
 }
 
 std::vector<std::string> ScoreNames() {

@@ -70,13 +70,13 @@ class SkyCue final : public Cue {
   PinholeCamera camera_;
 };
 
-constexpr CueName kNames[] = {{"sky", 4.44}};
+constexpr CueName kSkyNames[] = {{"sky", 4.44}};
 
 }  // namespace
 
 extern const CuePlugin kSkyCue;
 constinit const CuePlugin kSkyCue = {
-    .names = kNames,
+    .names = kSkyNames,
     .parts = {.edges_and_skyline = true, .surfaces = false},
     .declare = [](OptionGroups& options) { options.Add<SkyTableOptions>("sky"); },
     .make = [](const CueContext& c) -> std::shared_ptr<const Cue> {

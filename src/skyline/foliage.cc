@@ -16,7 +16,7 @@ constexpr int kHalfWindow = 5;
 constexpr double kStripShare = 0.03;
 constexpr int kMixedRows = 2;
 
-float Ramp(float value, float zero, float one) {
+float Rise(float value, float zero, float one) {
   return std::clamp((value - zero) / (one - zero), 0.0f, 1.0f);
 }
 
@@ -62,11 +62,11 @@ float Foliage(const Signs& s) {
   // Leaves in shadow are as green and as textured as in the sun, relative to their brightness.
   const float dark = 1.0f / (s.level + 20.0f);
   const float textured =
-      std::max(Ramp(s.texture, 6.0f, 16.0f), 0.8f * Ramp(s.texture * dark, 0.03f, 0.12f));
-  const float score = 1.1f * textured + 1.4f * Ramp(s.green * dark, 0.05f, 0.15f) +
-                      0.9f * textured * Ramp(s.yellow * dark, 0.28f, 0.4f) +
-                      0.8f * Ramp(s.ragged, 0.8f, 3.0f) + 0.8f * Ramp(s.sky, 0.05f, 0.3f);
-  return Ramp(score, 1.1f, 2.0f);
+      std::max(Rise(s.texture, 6.0f, 16.0f), 0.8f * Rise(s.texture * dark, 0.03f, 0.12f));
+  const float score = 1.1f * textured + 1.4f * Rise(s.green * dark, 0.05f, 0.15f) +
+                      0.9f * textured * Rise(s.yellow * dark, 0.28f, 0.4f) +
+                      0.8f * Rise(s.ragged, 0.8f, 3.0f) + 0.8f * Rise(s.sky, 0.05f, 0.3f);
+  return Rise(score, 1.1f, 2.0f);
 }
 
 }  // namespace

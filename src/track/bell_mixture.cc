@@ -10,7 +10,7 @@ namespace ridgeline {
 namespace {
 
 constexpr std::size_t kMostBells = 6;
-constexpr double kLeastMass = 0.003;
+constexpr double kLeastBellMass = 0.003;
 // Poses within this reach of the heaviest are covered by one bell.
 constexpr double kReachM = 1.5;
 constexpr double kReachDeg = 3.0;
@@ -94,7 +94,7 @@ std::vector<PoseBell> FitBells(const std::vector<PoseVector>& poses,
   std::vector<double> left = weights;
   std::vector<PoseBell> bells;
   double covered = 0.0;
-  while (bells.size() < kMostBells && covered < 1.0 - kLeastMass) {
+  while (bells.size() < kMostBells && covered < 1.0 - kLeastBellMass) {
     const auto top = std::max_element(left.begin(), left.end());
     if (*top <= 0.0) break;
     const PoseVector middle = poses[static_cast<std::size_t>(top - left.begin())];
@@ -109,7 +109,7 @@ std::vector<PoseBell> FitBells(const std::vector<PoseVector>& poses,
     covered += bell.mass;
     bell.covariance = kWiden * bell.covariance + broad / (1.0 + effective) + Floor();
     bells.push_back(bell);
-    if (bell.mass < kLeastMass) break;
+    if (bell.mass < kLeastBellMass) break;
   }
   std::stable_sort(bells.begin(), bells.end(), [](const PoseBell& a, const PoseBell& b) {
     return a.mass > b.mass;

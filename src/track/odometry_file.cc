@@ -40,9 +40,9 @@ std::vector<std::string> Split(const std::string& line, bool commas) {
   return words;
 }
 
-class Reader {
+class OdometryReader {
  public:
-  explicit Reader(const std::filesystem::path& path) { odometry_.file = path.string(); }
+  explicit OdometryReader(const std::filesystem::path& path) { odometry_.file = path.string(); }
 
   void Line(const std::string& line, int number) {
     place_ = "line " + std::to_string(number);
@@ -268,7 +268,7 @@ std::vector<std::optional<Place>> PlacesOf(const Odometry& odometry,
 }  // namespace
 
 Odometry ReadOdometry(const std::filesystem::path& path) {
-  Reader reader(path);
+  OdometryReader reader(path);
   std::istringstream text(ReadFile(path));
   std::string line;
   for (int number = 1; std::getline(text, line); ++number) reader.Line(line, number);

@@ -57,9 +57,9 @@ std::vector<std::string> KnownColumns() {
   return names;
 }
 
-class Reader {
+class SensorReader {
  public:
-  explicit Reader(std::string file) : file_(std::move(file)) {}
+  explicit SensorReader(std::string file) : file_(std::move(file)) {}
 
   void ReadHeader(const std::vector<std::string>& names) {
     const std::vector<std::string> known = KnownColumns();
@@ -142,7 +142,7 @@ class Reader {
 }  // namespace
 
 std::vector<SensorReading> ReadSensors(const std::filesystem::path& path) {
-  Reader reader(path.string());
+  SensorReader reader(path.string());
   std::vector<SensorReading> readings;
   std::istringstream text(ReadFile(path));
   std::string line;

@@ -28,8 +28,8 @@ constexpr double kDrawingPrecisionPx = 0.5;
 constexpr double kTolerancePx = 0.01;
 
 // The variables of a match, as offsets from the start.
-enum Variable : std::size_t { kHeading, kPitch, kRoll, kEast, kNorth, kHeight, kVariables };
-using Offsets = std::array<double, kVariables>;
+enum Variable : std::size_t { kHeading, kPitch, kRoll, kEast, kNorth, kHeight, kOffsetVariables };
+using Offsets = std::array<double, kOffsetVariables>;
 
 Pose PoseAt(const Pose& start, std::span<const double> o) {
   ViewAngles angles = ViewAnglesOf(start.cam_from_world);

@@ -17,7 +17,6 @@
 namespace ridgeline {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kGridCell = 8.0;    // [m]
 constexpr double kParallel = 0.087;  // sine of 5 degrees
 
@@ -37,7 +36,7 @@ class EdgeFinder {
       : set_(set),
         roots_(roots),
         options_(options),
-        min_fold_(options.min_dihedral_deg * kPi / 180.0),
+        min_fold_(options.min_dihedral_deg * std::numbers::pi / 180.0),
         table_(BuildEdgeTable(set)),
         grid_(set, kGridCell) {}
 

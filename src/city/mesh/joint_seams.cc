@@ -15,14 +15,14 @@ namespace {
 constexpr double kUpright = 0.95;      // of an edge's direction
 constexpr double kSameFacing = 0.985;  // 10 degrees between facades
 constexpr double kBeyondJoint = 0.15;  // [m]: the neighbour must reach this far past the joint
-constexpr double kGridCell = 8.0;      // [m]
+constexpr double kSeamGridCell = 8.0;  // [m]
 
 using Interval = std::pair<double, double>;
 
 class JointMarker {
  public:
   JointMarker(const FaceSet& set, const std::vector<std::uint32_t>& roots, double joint_m)
-      : set_(set), roots_(roots), joint_(joint_m), grid_(set, kGridCell) {}
+      : set_(set), roots_(roots), joint_(joint_m), grid_(set, kSeamGridCell) {}
 
   void Run(std::vector<FeatureEdge>& edges) {
     std::vector<FeatureEdge> result;
