@@ -35,6 +35,11 @@ inline constexpr std::size_t kPolygonsPerUse = 16;
 inline constexpr std::size_t kLinkedPolygons = 100'000;
 inline constexpr std::size_t kCopiedPoints = 10'000'000;
 
+// Corners of other polygons that all edges of a model run along: so many in any case, and so many
+// for each edge. Cities have some tens for each.
+inline constexpr std::size_t kContacts = 100'000'000;
+inline constexpr std::size_t kContactsPerEdge = 2000;
+
 // Cells of the part of a raster that is read.
 inline constexpr std::int64_t kRasterCells = 100'000'000;
 

@@ -3,6 +3,7 @@
 #include <ogr_spatialref.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/gdal_handles.h"
+#include "base/limits.h"
 #include "city/city_info.h"
 #include "city/open_raster.h"
 #include "city/raster_values.h"
@@ -40,11 +42,27 @@ void ReadMetadata(GDALDataset& dataset, RasterInfo& info) {
   info.has_xmp = dataset.GetMetadata("xml:XMP") != nullptr;
 }
 
-// Of large rasters every so manieth row.
-void ReadValues(GDALDataset& dataset, RasterInfo& info) {
-  constexpr double kMostCells = 1e8;
+// Of large rasters every so manieth row, each with the blocks that it crosses.
+int RowStep(GDALDataset& dataset, const RasterInfo& info) {
+  constexpr double kMostCells = 2e8;
   const double cells = static_cast<double>(info.columns) * info.rows;
-  info.row_step = static_cast<int>(std::ceil(cells / kMostCells));
+  if (cells <= kMostCells) return 1;
+  int block_columns = 0;
+  int block_rows = 0;
+  dataset.GetRasterBand(1)->GetBlockSize(&block_columns, &block_rows);
+  if (static_cast<double>(info.columns) * block_rows > static_cast<double>(limits::kRasterCells)) {
+    throw InputError(info.file,
+                     "limit",
+                     "rows of " + std::to_string(info.columns) + " cells in blocks of " +
+                         std::to_string(block_rows) + " rows",
+                     "at most " + std::to_string(limits::kRasterCells) + " cells together");
+  }
+  return static_cast<int>(
+      std::min(std::ceil(cells * block_rows / kMostCells), static_cast<double>(info.rows)));
+}
+
+void ReadValues(GDALDataset& dataset, RasterInfo& info) {
+  info.row_step = RowStep(dataset, info);
   RasterValues values(dataset, info.file, 1.0);
   std::vector<double> row(static_cast<std::size_t>(info.columns));
   double low = std::numeric_limits<double>::infinity();
@@ -89,10 +107,11 @@ RasterInfo DescribeRaster(const std::filesystem::path& path) {
   info.rows = dataset->GetRasterYSize();
   info.bands = dataset->GetRasterCount();
   info.crs = CrsText(dataset->GetSpatialRef());
-  double g[6] = {};
-  info.georeferenced = dataset->GetGeoTransform(g) == CE_None;
+  const auto transform = GeoTransformOf(*dataset, info.file);
+  info.georeferenced = transform.has_value();
   ReadMetadata(*dataset, info);
   if (!info.georeferenced) return info;
+  const std::array<double, 6>& g = *transform;
   info.spacing = {std::hypot(g[1], g[4]), std::hypot(g[2], g[5])};
   const auto corner = [&](double column, double row) {
     return Eigen::Vector2d(g[0] + column * g[1] + row * g[2], g[3] + column * g[4] + row * g[5]);

@@ -3,6 +3,7 @@
 
 #include <gdal_priv.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -56,6 +57,12 @@ RasterValues::RasterValues(GDALDataset& dataset, const std::string& file, double
   has_nodata_ = has_nodata != 0;
   scale_ = band_.GetScale();
   offset_ = band_.GetOffset();
+  if (scale_ == 0.0 || !std::isfinite(scale_) || !std::isfinite(offset_)) {
+    throw InputError(file_,
+                     "scale",
+                     "heights of " + Number(scale_) + " * cell + " + Number(offset_),
+                     "a scale that keeps them apart (gdal_edit.py -unsetstats -scale 1 -offset 0)");
+  }
   if ((band_.GetMaskFlags() & GMF_ALL_VALID) == 0) {
     mask_ = band_.GetMaskBand();
   } else {
@@ -117,22 +124,35 @@ void RasterValues::ReadRow(int column, int row, std::span<double> heights) {
       // A raster of noise has a million of them.
       constexpr std::size_t kMostFills = 1000;
       if (fills_.size() < kMostFills || fills_.contains(raw)) ++fills_[raw];
+    } else if (heights[i] == 0.0) {
+      ++zeros_;
+    } else {
+      lowest_other_ = std::min(lowest_other_, heights[i]);
     }
   }
 }
 
 std::vector<std::string> RasterValues::Warnings() const {
-  if (fills_.empty()) return {};
+  std::vector<std::string> warnings;
+  // Land goes down to the sea step by step; a hole that somebody filled with zeros does not.
+  constexpr double kCliff = 20.0;
+  if (zeros_ > 0 && std::isfinite(lowest_other_) && lowest_other_ > kCliff) {
+    warnings.push_back(file_ + ": " + std::to_string(zeros_) +
+                       " cells are at 0 m, all others above " + Number(lowest_other_) +
+                       " m; taken as they are (gdal_edit.py -a_nodata 0 declares them missing)");
+  }
+  if (fills_.empty()) return warnings;
   std::size_t cells = 0;
   auto most = fills_.begin();
   for (auto it = fills_.begin(); it != fills_.end(); ++it) {
     cells += it->second;
     if (it->second > most->second) most = it;
   }
-  return {file_ + ": " + std::to_string(cells) + " cells hold " + Number(most->first) +
-          (fills_.size() > 1 ? " and other values that are" : ", which is") +
-          " no height; taken as missing (gdal_edit.py -a_nodata " + Number(most->first) +
-          " declares it)"};
+  warnings.push_back(file_ + ": " + std::to_string(cells) + " cells hold " + Number(most->first) +
+                     (fills_.size() > 1 ? " and other values that are" : ", which is") +
+                     " no height; taken as missing (gdal_edit.py -a_nodata " + Number(most->first) +
+                     " declares it)");
+  return warnings;
 }
 
 void CheckIsTerrain(GDALDataset& dataset, const std::string& file) {

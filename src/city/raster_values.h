@@ -26,7 +26,7 @@ class RasterValues {
   // for cells that cannot be read.
   void ReadRow(int column, int row, std::span<double> heights);
 
-  // A line for each undeclared fill value that was met.
+  // A line for undeclared fill values that were met, and one for zeros far below all others.
   std::vector<std::string> Warnings() const;
 
  private:
@@ -45,6 +45,8 @@ class RasterValues {
   double highest_integer_ = std::numeric_limits<double>::quiet_NaN();
   std::vector<unsigned char> mask_row_;
   std::map<double, std::size_t> fills_;
+  std::size_t zeros_ = 0;
+  double lowest_other_ = std::numeric_limits<double>::infinity();  // height that is not 0
 };
 
 // Throws InputError for a raster that is no terrain model, saying what it is: a picture (colour

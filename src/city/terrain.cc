@@ -413,13 +413,15 @@ HeightGrid ReadDtm(const std::filesystem::path& path,
       OpenRaster(LocalFile(file, warnings), "a terrain model such as a GeoTIFF or a VRT");
   CheckIsTerrain(*dataset, file);
   const RasterSystem system = SystemOf(*dataset, model.crs, file, warnings);
-  GeoTransform g;
-  if (dataset->GetGeoTransform(g.c) != CE_None) {
+  const auto transform = GeoTransformOf(*dataset, file);
+  if (!transform) {
     throw InputError(file,
                      "geotransform",
                      "a raster that does not say where it lies",
                      "a georeferenced raster (or a world file beside it)");
   }
+  GeoTransform g;
+  std::copy(transform->begin(), transform->end(), g.c);
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(margin_m);
   const Eigen::Vector2d origin = model.origin_in_world.head<2>();
   const Eigen::AlignedBox2d wanted(lower + origin - margin, upper + origin + margin);

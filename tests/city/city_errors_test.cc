@@ -100,6 +100,12 @@ TEST(CityErrors, BadNumberNamesItsLine) {
   EXPECT_THAT(ErrorOf(PolygonOf("0 0 5 4 0 1e999 4 3 5 0 0 5")), HasSubstr("\"1e999\""));
 }
 
+// Read as separators they would make 456160,5 two numbers.
+TEST(CityErrors, DecimalCommas) {
+  EXPECT_THAT(ErrorOf(PolygonOf("0,5 0 5 4,5 0 5 4,5 3 5 0,5 0 5")),
+              HasSubstr("got \"0,5\" among coordinates, expected finite decimal numbers"));
+}
+
 TEST(CityErrors, EndlessWordFailsAtOnce) {
   EXPECT_THAT(ErrorOf(PolygonOf(std::string(1 << 20, '7'))), HasSubstr("among coordinates"));
 }
@@ -191,6 +197,27 @@ TEST(CityErrors, CityJson) {
               AllOf(HasSubstr("CityObjects.h.geometry[0]"), HasSubstr("got vertex 7")));
 }
 
+TEST(CityErrors, CityJsonStructureNamesItsPlace) {
+  const auto error_of = [](const std::string& geometry) {
+    return ErrorOf(
+        R"({"type":"CityJSON","version":"2.0","vertices":[[0,0,0],[1,0,0],[0,1,0]],)"
+        R"("CityObjects":{"h":{"type":"Building","geometry":[{"type":"MultiSurface","lod":"2",)" +
+            geometry + "}]}}}",
+        "m.json");
+  };
+  EXPECT_THAT(error_of(R"("boundaries":[[[0,1.5,2]]])"),
+              HasSubstr("CityObjects.h.geometry[0]: got vertex 1.5, expected a whole number"));
+  EXPECT_THAT(error_of(R"("boundaries":[[["0",1,2]]])"), HasSubstr("got vertex \"0\""));
+  EXPECT_THAT(error_of(R"("boundaries":[[[0,1,2]]],"semantics":{"surfaces":[]})"),
+              HasSubstr("CityObjects.h.geometry[0]: got a CityJSON structure error"));
+  EXPECT_THAT(
+      ErrorOf("{\"type\":\"CityJSON\",\"version\":\"2.0\",\"CityObjects\":{\"h\":5}}", "m.json"),
+      HasSubstr("CityObjects.h: got a CityJSON structure error"));
+  EXPECT_THAT(
+      ErrorOf("{\"type\":\"CityJSON\",\"version\":\"2.0\",\"CityObjects\":{}}\n5\n{}\n", "m.jsonl"),
+      HasSubstr("m.jsonl: line 2: got number, expected an object"));
+}
+
 TEST(CityErrors, MeshFiles) {
   EXPECT_THAT(ErrorOf("v 0 0 0\nv 1 0 x\n", "m.obj"),
               AllOf(HasSubstr("line 2"), HasSubstr("\"x\"")));
@@ -199,9 +226,19 @@ TEST(CityErrors, MeshFiles) {
   EXPECT_THAT(ErrorOf("hello", "m.obj"), HasSubstr("no vertices"));
   EXPECT_THAT(
       ErrorOf("ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
-              "property float z\nend_header\n0 0 0\n1 1",
+              "property float z\nelement face 0\nproperty list uchar int vertex_index\nend_header\n"
+              "0 0 0\n1 1",
               "m.ply"),
       AllOf(HasSubstr("vertex[1]"), HasSubstr("a file that ends early")));
+  const std::string head = "ply\nformat ascii 1.0\n";
+  const std::string vertices =
+      "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
+  EXPECT_THAT(ErrorOf(head + vertices + "end_header\n0 0 0\n", "m.ply"),
+              HasSubstr("header: got no element \"face\", expected faces"));
+  EXPECT_THAT(ErrorOf(head + "element face 0\nproperty list uchar int vertex_index\n" + vertices +
+                          "end_header\n0 0 0\n",
+                      "m.ply"),
+              HasSubstr("header: got faces before vertices"));
   EXPECT_THAT(ErrorOf("ply\nformat middle_endian 1.0\nend_header\n", "m.ply"),
               HasSubstr("format: got \"middle_endian\""));
 }

@@ -150,6 +150,12 @@ TEST(Obj, ObjectsAreBuildingsAndGroupsGiveClasses) {
   EXPECT_EQ(model.surfaces.back().surface_class, SurfaceClass::kRoof);
 }
 
+TEST(Obj, MarkOfByteOrderAndLinesThatGoOn) {
+  std::string text = kObjFaces;
+  text.replace(text.find("2 6 5"), 5, "2 \\\r\n6 5");
+  ExpectBox(Read("a.obj", "\xEF\xBB\xBF" + text + "# offset 691000 5336000 500 \\"));
+}
+
 TEST(Obj, UnnamedMeshIsSplitIntoConnectedParts) {
   const CityModel model =
       Read("a.obj", kObjFaces + "v 30 0 0\nv 40 0 0\nv 40 8 0\nv 0 0 0\nf 9 10 11\n");

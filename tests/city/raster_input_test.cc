@@ -6,6 +6,7 @@
 #include <ogr_spatialref.h>
 #include <sys/stat.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -189,6 +190,16 @@ TEST(RasterMissing, FillThatNobodyDeclaredIsAWarning) {
   }
 }
 
+TEST(RasterMissing, ZerosFarBelowAllOthersAreAWarning) {
+  const TestFolder folder;
+  Spec spec;
+  spec.hole = 0.0;
+  EXPECT_THAT(Read(Write(folder, spec)).warnings,
+              Contains(HasSubstr("16 cells are at 0 m, all others above 110")));
+  spec.unit_m = 1000.0;  // a shore of 0.11 m and more
+  EXPECT_THAT(Read(Write(folder, spec)).warnings, IsEmpty());
+}
+
 TEST(RasterMissing, FillOfSmallUnitsIsNoHeight) {
   const TestFolder folder;
   Spec spec;
@@ -367,6 +378,41 @@ TEST(RasterKind, NamesThatAreNoFilesAreNotOpened) {
   EXPECT_THAT(ErrorOf("/vsizip/no.zip/a.tif"), HasSubstr("got no such file in the archive"));
 }
 
+// GDAL's drivers of map servers would ask the server that such a file names.
+TEST(RasterKind, DescriptionsOfMapServersAreNotOpened) {
+  const TestFolder folder;
+  const auto file = folder.Write(
+      "wms.xml",
+      "<GDAL_WMS><Service name=\"TMS\"><ServerUrl>http://127.0.0.1:1/${z}/${x}/${y}.tif</ServerUrl>"
+      "</Service><DataWindow><UpperLeftX>691000</UpperLeftX><UpperLeftY>5336020</UpperLeftY>"
+      "<LowerRightX>691020</LowerRightX><LowerRightY>5336000</LowerRightY><SizeX>20</SizeX>"
+      "<SizeY>20</SizeY></DataWindow><Projection>EPSG:25832</Projection><BandsCount>1</BandsCount>"
+      "<DataType>Float32</DataType></GDAL_WMS>");
+  EXPECT_THAT(ErrorOf(file), HasSubstr("a file that GDAL cannot open as a raster"));
+}
+
+TEST(RasterKind, CellsOfNoSizeAreRefused) {
+  for (const std::array<double, 6>& transform :
+       {std::array<double, 6>{691000, 0, 0, 5336020, 0, 0},
+        std::array<double, 6>{691000, 2, 2, 5336020, 2, 2},
+        std::array<double, 6>{691000, std::nan(""), 0, 5336020, 0, -1},
+        std::array<double, 6>{691000, 1e300, 0, 5336020, 0, -1e300}}) {
+    const TestFolder folder;
+    const auto file = Write(folder, {}, [&](GDALDataset& d) {
+      std::array<double, 6> copy = transform;
+      d.SetGeoTransform(copy.data());
+    });
+    EXPECT_THAT(ErrorOf(file), HasSubstr("dtm.tif: geotransform: got "));
+    EXPECT_THROW(DescribeRaster(file), InputError);
+  }
+}
+
+TEST(RasterKind, AScaleThatMakesAllHeightsEqualIsRefused) {
+  const TestFolder folder;
+  EXPECT_THAT(ErrorOf(Write(folder, {}, [](GDALDataset& d) { d.GetRasterBand(1)->SetScale(0.0); })),
+              HasSubstr("dtm.tif: scale: got heights of 0 * cell + 0"));
+}
+
 TEST(RasterKind, InfoSaysSo) {
   const TestFolder folder;
   Spec several;
@@ -401,6 +447,33 @@ TEST(RasterLimit, HugeRastersAreReadNearThePlaceOnly) {
   } catch (const InputError& e) {
     EXPECT_THAT(e.what(), HasSubstr("huge.tif: limit: got 90"));
   }
+}
+
+TEST(RasterLimit, InfoReadsAPartOfHugeRasters) {
+  const TestFolder folder;
+  const auto vrt = [&](const std::string& size) {
+    return folder.Write("a.vrt",
+                        "<VRTDataset rasterXSize=\"" + size + "\" rasterYSize=\"" + size +
+                            "\"><GeoTransform>691000, 1, 0, 5336000, 0, -1</GeoTransform>"
+                            "<VRTRasterBand dataType=\"Float32\" band=\"1\"/></VRTDataset>");
+  };
+  EXPECT_GT(DescribeRaster(vrt("100000")).row_step, 1000);
+  EXPECT_THROW(DescribeRaster(vrt("2000000000")), InputError);
+}
+
+// For one cell GDAL would unpack 270 million.
+TEST(RasterLimit, BlocksThatAreTooLargeAreRefused) {
+  const TestFolder folder;
+  GDALAllRegister();
+  const std::filesystem::path file = folder.path() / "blocks.tif";
+  {
+    const char* options[] = {
+        "SPARSE_OK=TRUE", "TILED=YES", "BLOCKXSIZE=16384", "BLOCKYSIZE=16384", nullptr};
+    const GdalDatasetPtr dataset(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
+        file.c_str(), 20000, 20000, 1, GDT_Float32, const_cast<char**>(options)));
+  }
+  EXPECT_THAT(ErrorOf(file), HasSubstr("blocks.tif: limit: got cells in blocks of 16384 x 16384"));
+  EXPECT_THROW(DescribeRaster(file), InputError);
 }
 
 // 10^8 cells of 1 m x 1 mm would become as many of 3 cm, held several times.

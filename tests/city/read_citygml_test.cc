@@ -317,6 +317,44 @@ TEST(ReadCityGml, CoordinatesMayBeSinglePositionsOrOldStyle) {
   EXPECT_NEAR(Area(ReadGml(GmlDocument(polygon(exponents), ""))), 6.0, 1e-12);
 }
 
+TEST(ReadCityGml, OldCoordinatesSayWhatSeparatesThem) {
+  const auto area = [](const std::string& content) {
+    return Area(ReadGml(GmlDocument(
+        GmlBuilding("a",
+                    GmlBoundary("RoofSurface",
+                                "<gml:Polygon><gml:exterior><gml:LinearRing>" + content +
+                                    "</gml:LinearRing></gml:exterior></gml:Polygon>")),
+        "")));
+  };
+  EXPECT_NEAR(area("<gml:coordinates decimal=\",\" cs=\";\" ts=\"|\">0;0;5|4,5;0;5|4,5;3;5|0;0;5"
+                   "</gml:coordinates>"),
+              6.75,
+              1e-12);
+  const auto coord = [](const std::string& x, const std::string& y) {
+    return "<gml:coord><gml:X>" + x + "</gml:X><gml:Y>" + y +
+           "</gml:Y><gml:Z>5</gml:Z></gml:coord>";
+  };
+  EXPECT_NEAR(
+      area(coord("0", "0") + coord("4.5", "0") + coord("4.5", "3") + coord("0", "0")), 6.75, 1e-12);
+}
+
+// Two numbers would put it at 0, 0, 0.
+TEST(ReadCityGml, ImplicitGeometryWithoutItsPlaceIsNamed) {
+  const std::string implicit =
+      "<bldg:outerBuildingInstallation><bldg:BuildingInstallation>"
+      "<bldg:lod2ImplicitRepresentation><core:ImplicitGeometry><core:relativeGMLGeometry>" +
+      GmlPolygon({{0, 0, 1}, {2, 0, 1}, {0, 1, 1}}) +
+      "</core:relativeGMLGeometry><core:referencePoint><gml:Point><gml:pos>691000 5336000"
+      "</gml:pos></gml:Point></core:referencePoint></core:ImplicitGeometry>"
+      "</bldg:lod2ImplicitRepresentation></bldg:BuildingInstallation>"
+      "</bldg:outerBuildingInstallation>";
+  const CityModel model =
+      ReadGml(GmlDocument(GmlBox("b", kCorner, kCorner + kSize) + GmlBuilding("a", implicit)));
+  ExpectBox(model);
+  EXPECT_TRUE(
+      Warns(model, "1 implicit geometries without a place of three coordinates dropped (a)"));
+}
+
 TEST(ReadCityGml, BuildingsWithoutIdAreNumbered) {
   const CityModel model = ReadGml(GmlDocument(GmlBox("", kCorner, kCorner + kSize)));
   EXPECT_EQ(model.buildings[0].id, "building-1");

@@ -129,6 +129,21 @@ TEST(ReaderLimits, TemplatesDrawnThousandsOfTimes) {
               HasSubstr("a.json: limit: got templates that stand for more than 10000000 points"));
 }
 
+// Forty polygons of 300 corners each, all over one place and in one plane.
+TEST(ReaderLimits, PolygonsThatLieInEachOther) {
+  std::string members;
+  for (int p = 0; p < 40; ++p) {
+    Ring ring;
+    for (int i = 0; i < 300; ++i) {
+      const int k = p * 300 + i;
+      ring.emplace_back(k * 7919 % 10007 * 0.01, k * 6007 % 10009 * 0.01, 5.0);
+    }
+    members += GmlBoundary("RoofSurface", GmlPolygon(ring));
+  }
+  EXPECT_THAT(ErrorOf("a.gml", GmlDocument(GmlBuilding("a", members))),
+              HasSubstr("limit: got polygons that lie in each other"));
+}
+
 TEST(ReaderLimits, AKeyTwice) {
   EXPECT_THAT(ErrorOf("a.json",
                       R"({"type":"CityJSON","version":"1.1","vertices":[],"CityObjects":{)"

@@ -166,6 +166,15 @@ TEST(Triangulate, CombIsFilled) {
   ExpectFilled(polygon, "comb");
 }
 
+// Without a bound on the search for ears this goes on for the cube of the corners.
+TEST(Triangulate, OutlineThatCrossesItselfEverywhereEnds) {
+  std::vector<Eigen::Vector2d> ring;
+  for (int i = 0; i < 8000; ++i) ring.emplace_back(i * 7919 % 10007, i * 6007 % 10009);
+  PlanarPolygon scribble;
+  AddRing(scribble, ring);
+  EXPECT_LE(Triangulate(scribble).size(), ring.size());
+}
+
 TEST(Triangulate, CrossedOutlineEndsAndDoesNotOverfill) {
   PlanarPolygon bow;
   AddRing(bow, {{0, 0}, {4, 4}, {4, 0}, {0, 5}});

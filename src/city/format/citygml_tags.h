@@ -26,7 +26,8 @@ enum class GmlTag : std::uint8_t {
   kExterior,
   kInterior,
   kRing,         // LinearRing, Ring
-  kCoordinates,  // posList, pos, coordinates
+  kCoordinates,  // posList, pos, X, Y, Z
+  kTuples,       // coordinates, as in GML 2
   kImplicit,
   kMatrix,
   kReferencePoint,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "city/format/coordinate_list.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
@@ -8,19 +9,30 @@
 namespace ridgeline {
 namespace {
 
-bool IsSeparator(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == ','; }
-
 constexpr std::size_t kMaxWord = 64;
 
 }  // namespace
 
-void CoordinateList::Begin() {
+void CoordinateList::Begin(std::string_view separators, char decimal) {
+  separators_ = separators;
+  decimal_ = decimal;
   numbers_.clear();
   tail_.clear();
 }
 
+bool CoordinateList::IsSeparator(char c) const {
+  return c == ' ' || c == '\n' || c == '\t' || c == '\r' ||
+         separators_.find(c) != std::string::npos;
+}
+
 void CoordinateList::Word(std::string_view word) {
-  const std::string_view digits = word.front() == '+' ? word.substr(1) : word;
+  std::string pointed;
+  std::string_view digits = word.front() == '+' ? word.substr(1) : word;
+  if (decimal_ != '.') {
+    pointed = digits;
+    std::replace(pointed.begin(), pointed.end(), decimal_, '.');
+    digits = pointed;
+  }
   double value = 0.0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value)) {

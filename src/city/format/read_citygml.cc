@@ -204,16 +204,25 @@ class CityGmlHandler final : public XmlHandler {
         polygon_.BeginRing();
         break;
       case GmlTag::kCoordinates:
+        collecting_ = in_ring_ || in_reference_;
+        list_.Begin();
+        break;
+      case GmlTag::kTuples:
+        collecting_ = in_ring_ || in_reference_;
+        BeginTuples(attributes);
+        break;
       case GmlTag::kMatrix:
-        collecting_ = in_ring_ || in_reference_ || (element.tag == GmlTag::kMatrix && InLod(scope));
+        collecting_ = InLod(scope);
         list_.Begin();
         break;
       case GmlTag::kImplicit:
         implicit_ = GmlImplicit{};
+        placed_ = false;
         implicit_.prototype = {scope.uses_begin, scope.uses_begin};
         break;
       case GmlTag::kReferencePoint:
         in_reference_ = InLod(scope);
+        reference_.clear();
         break;
       case GmlTag::kPrototype:
         scope.prototype = true;
@@ -224,6 +233,14 @@ class CityGmlHandler final : public XmlHandler {
       default:
         break;
     }
+  }
+
+  // gml:coordinates says itself what stands between its numbers.
+  void BeginTuples(const XmlAttributes& attributes) {
+    const std::string_view decimal = attributes.Local("decimal");
+    const std::string_view between = attributes.Local("cs");
+    list_.Begin(std::string(between.empty() ? "," : between).append(attributes.Local("ts")),
+                decimal.empty() ? '.' : decimal.front());
   }
 
   static bool InLod(const Scope& scope) { return scope.building >= 0 && scope.lod >= 0; }
@@ -276,6 +293,7 @@ class CityGmlHandler final : public XmlHandler {
   void Leave(const Scope& scope) {
     switch (scope.tag) {
       case GmlTag::kCoordinates:
+      case GmlTag::kTuples:
         if (collecting_) LeaveCoordinates(scope);
         break;
       case GmlTag::kMatrix:
@@ -290,6 +308,7 @@ class CityGmlHandler final : public XmlHandler {
         in_polygon_ = false;
         break;
       case GmlTag::kReferencePoint:
+        if (in_reference_) LeaveReference();
         in_reference_ = false;
         break;
       case GmlTag::kImplicit:
@@ -306,9 +325,14 @@ class CityGmlHandler final : public XmlHandler {
     const std::vector<double>& numbers = list_.numbers();
     if (in_ring_) {
       polygon_.AddNumbers(numbers, scope.dimension);
-    } else if (numbers.size() == 3) {
-      implicit_.reference = Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
+    } else {
+      reference_.insert(reference_.end(), numbers.begin(), numbers.end());
     }
+  }
+
+  void LeaveReference() {
+    placed_ = reference_.size() == 3;
+    if (placed_) implicit_.reference = Eigen::Map<const Eigen::Vector3d>(reference_.data());
   }
 
   void LeaveMatrix() {
@@ -334,6 +358,11 @@ class CityGmlHandler final : public XmlHandler {
   }
 
   void LeaveImplicit(const Scope& scope) {
+    if (!placed_) {
+      model_.tally.Add("implicit geometries without a place of three coordinates dropped",
+                       BuildingIdOf(scope));
+      return;
+    }
     implicit_.prototype.end = static_cast<std::uint32_t>(gml_.uses.size());
     GmlUse use = UseOf(scope);
     use.kind = GmlUse::Kind::kImplicit;
@@ -354,6 +383,8 @@ class CityGmlHandler final : public XmlHandler {
   CoordinateList list_;
   GmlPolygonBuilder polygon_;
   GmlImplicit implicit_;
+  bool placed_ = false;
+  std::vector<double> reference_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -91,6 +92,10 @@ class CityJsonReader {
  public:
   explicit CityJsonReader(SourceModel& model) : model_(model) {}
 
+  // Where reading has come to: a line of a sequence, an object, a geometry of it; may be empty.
+  const std::string& place() const { return place_; }
+  void BeginLine(std::size_t number) { place_ = "line " + std::to_string(number); }
+
   void ReadHeader(const Json& root) {
     const std::string type = root.value("type", "");
     if (type != "CityJSON") {
@@ -129,6 +134,7 @@ class CityJsonReader {
     const Json& objects = root.at("CityObjects");
     std::unordered_map<std::string, int> index;
     for (const auto& [id, object] : objects.items()) {
+      place_ = "CityObjects." + id;
       const std::string type = object.value("type", "");
       if (IsBuilding(type)) {
         index.emplace(id, static_cast<int>(model_.buildings.size()));
@@ -138,6 +144,7 @@ class CityJsonReader {
       }
     }
     for (const auto& [id, object] : objects.items()) {
+      place_ = "CityObjects." + id;
       int owner = -1;
       const auto own = index.find(id);
       const int parent = ParentOf(object, index);
@@ -191,9 +198,10 @@ class CityJsonReader {
   // What a geometry is drawn from: itself, or the template of an instance.
   const Json& ShapeOf(const Json& geometry) const {
     if (geometry.value("type", "") != "GeometryInstance") return geometry;
-    const std::size_t index = geometry.at("template").get<std::size_t>();
+    const Json& number = geometry.at("template");
+    const std::size_t index = number.is_number_integer() ? number.get<std::size_t>() : SIZE_MAX;
     if (index >= templates_.size()) {
-      Fail("template " + std::to_string(index),
+      Fail("template " + JsonText(number),
            "one of the file's " + std::to_string(templates_.size()) + " templates");
     }
     return templates_[index];
@@ -203,11 +211,11 @@ class CityJsonReader {
   void SpendCopies(std::size_t points) {
     copied_ += points;
     if (copied_ <= limits::kCopiedPoints) return;
-    throw InputError(model_.file,
-                     "limit",
-                     "templates that stand for more than " + std::to_string(limits::kCopiedPoints) +
-                         " points",
-                     "geometry that is written out, not multiplied by instances");
+    throw InputError(
+        model_.file,
+        "limit",
+        "templates that stand for more than " + std::to_string(limits::kCopiedPoints) + " points",
+        "geometry that is written out, not multiplied by instances");
   }
 
   // All surfaces of the finest fraction of each integer level are one shape: 3DBAG gives 1.2 and
@@ -339,6 +347,7 @@ class CityJsonReader {
     for (std::size_t r = 0; r < rings.size(); ++r) {
       SourceRing ring{static_cast<std::uint32_t>(model_.points.size()), 0};
       for (const Json& v : rings[r]) {
+        if (!v.is_number_integer()) Fail("vertex " + JsonText(v), "a whole number");
         const std::size_t index = v.get<std::size_t>();
         if (index >= from_->size()) {
           Fail("vertex " + JsonText(v), "one of " + std::to_string(from_->size()) + " vertices");
@@ -387,8 +396,8 @@ class CityJsonReader {
   Json templates_ = Json::array();
   std::vector<Eigen::Vector3d> template_vertices_;
   std::size_t copied_ = 0;  // points of instances
-  // Of the geometry being read:
   std::string place_;
+  // Of the geometry being read:
   std::size_t owner_ = 0;
   bool installation_ = false;
   std::int8_t lod_ = 0;
@@ -405,7 +414,9 @@ void ReadSequence(const std::string& text, CityJsonReader& reader, const std::st
     begin = end + 1;
     ++line_number;
     if (line.find_first_not_of(" \t\r") == std::string_view::npos) continue;
-    const Json json = ParseJson(line, file, "line " + std::to_string(line_number));
+    reader.BeginLine(line_number);
+    const Json json = ParseJson(line, file, reader.place());
+    if (!json.is_object()) throw InputError(file, reader.place(), json.type_name(), "an object");
     if (line_number == 1) {
       reader.ReadHeader(json);
     } else if (json.value("type", "") != "CityJSONFeature") {
@@ -446,7 +457,7 @@ SourceModel ReadCityJson(InputFile& file) {
     }
   } catch (const Json::exception& e) {
     throw InputError(model.file,
-                     "",
+                     reader.place(),
                      std::string("a CityJSON structure error (") + e.what() + ")",
                      "CityJSON 1.0 to 2.0");
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -19,7 +20,21 @@ class ObjParser {
 
   void Line(std::string_view line) {
     ++line_number_;
+    if (line_number_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    if (line.ends_with('\\')) {  // goes on in the next line
+      begun_.append(line.substr(0, line.size() - 1)).append(" ");
+      return;
+    }
+    if (begun_.empty()) {
+      WholeLine(line);
+      return;
+    }
+    const std::string whole = std::exchange(begun_, {}).append(line);
+    WholeLine(whole);
+  }
+
+  void WholeLine(std::string_view line) {
     if (!line.empty() && line.front() == '#') {
       mesh_.Comment(line.substr(1));
       return;
@@ -42,6 +57,7 @@ class ObjParser {
   }
 
   SourceModel Finish() {
+    if (!begun_.empty()) WholeLine(std::exchange(begun_, {}));
     if (mesh_.vertices().empty()) {
       throw InputError(file_, "", "no vertices", "an OBJ file with v and f lines");
     }
@@ -104,6 +120,7 @@ class ObjParser {
   std::string file_;
   MeshSource mesh_;
   std::vector<std::uint32_t> corners_;
+  std::string begun_;  // lines that end in a backslash
   std::size_t line_number_ = 0;
   bool has_objects_ = false;
 };

@@ -116,6 +116,17 @@ class PlyParser {
     if (format_ != "ascii" && format_ != "binary_little_endian" && format_ != "binary_big_endian") {
       Fail("format", "\"" + format_ + "\"", "ascii, binary_little_endian or binary_big_endian");
     }
+    const auto place_of = [this](std::string_view name) {
+      return std::find_if(elements_.begin(), elements_.end(), [name](const Element& element) {
+        return element.name == name;
+      });
+    };
+    if (place_of("face") == elements_.end()) {
+      Fail("header", "no element \"face\"", "faces (strips of triangles are not read)");
+    }
+    if (place_of("face") < place_of("vertex")) {
+      Fail("header", "faces before vertices", "the element \"vertex\" first");
+    }
   }
 
   void ReadProperty(std::istringstream& words, const std::string& line) {

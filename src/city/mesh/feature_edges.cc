@@ -3,11 +3,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <span>
 
+#include "base/error.h"
+#include "base/limits.h"
 #include "base/parallel.h"
 #include "city/mesh/edge_table.h"
 #include "city/mesh/face_grid.h"
@@ -89,7 +92,10 @@ class EdgeFinder {
     const Line line = LineOf(edge);
     if (line.length < options_.adjoin_m) return;
     FindContacts(edge, line, w);
+    const std::size_t corners = CornersOfContacts(w);
+    Spend(corners);
     FindCuts(line, w);
+    Spend(corners * w.cuts.size());
     w.pieces.clear();
     for (std::size_t i = 0; i + 1 < w.cuts.size(); ++i) {
       const double middle = 0.5 * (w.cuts[i] + w.cuts[i + 1]);
@@ -122,6 +128,29 @@ class EdgeFinder {
     line.u = line.direction.unitOrthogonal();
     line.v = line.direction.cross(line.u);
     return line;
+  }
+
+  std::size_t CornersOfContacts(const Workspace& w) const {
+    std::size_t corners = 0;
+    for (const Contact& contact : w.contacts) {
+      const Face& face = set_.faces[contact.face];
+      for (std::uint32_t r = 0; r < face.ring_count; ++r) {
+        corners += set_.Ring(face.first_ring + r).size();
+      }
+    }
+    return corners;
+  }
+
+  // Corners of faces that edges run along.
+  void Spend(std::size_t corners) const {
+    const std::size_t most = limits::kContacts + limits::kContactsPerEdge * table_.edges.size();
+    if (spent_.fetch_add(corners, std::memory_order_relaxed) <= most) return;
+    throw InputError("city model",
+                     "limit",
+                     "polygons that lie in each other, so that " +
+                         std::to_string(table_.edges.size()) + " edges touch more than " +
+                         std::to_string(most) + " corners",
+                     "buildings of which each surface is there once");
   }
 
   bool IsOwn(const PolygonEdge& edge, std::uint32_t face) const {
@@ -316,6 +345,7 @@ class EdgeFinder {
   double min_fold_;
   EdgeTable table_;
   FaceGrid grid_;
+  mutable std::atomic<std::size_t> spent_{0};
 };
 
 }  // namespace

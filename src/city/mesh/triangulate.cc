@@ -23,10 +23,11 @@ class EarClipper {
     triangles.reserve(ring_.size());
     std::size_t i = 0;
     std::size_t tries = 0;
+    left_ = kTests + kTestsPerPair * ring_.size() * ring_.size();
     while (ring_.size() > 3) {
       const std::size_t n = ring_.size();
       i %= n;
-      if (IsEar(i) || (tries >= n && IsEarInEmergency(i)) || tries >= 2 * n) {
+      if (IsEar(i) || ((tries >= n || left_ == 0) && IsEarInEmergency(i)) || tries >= 2 * n) {
         Cut(i, triangles);
         // Going on two corners further avoids fans of slivers.
         ++i;
@@ -41,6 +42,11 @@ class EarClipper {
   }
 
  private:
+  // Corners that may be looked at: simple rings need fewer, those that cross themselves everywhere
+  // would go on for the cube of their corners.
+  static constexpr std::size_t kTests = 10'000'000;
+  static constexpr std::size_t kTestsPerPair = 1;
+
   const Eigen::Vector2d& At(std::size_t i) const { return points_[ring_[i % ring_.size()]]; }
 
   void Cut(std::size_t i, std::vector<TriangleIndices>& triangles) {
@@ -52,7 +58,8 @@ class EarClipper {
 
   // A convex corner whose triangle holds no other corner of the ring. Points that coincide with the
   // triangle's own corners (the other side of a bridge) do not count.
-  bool IsEar(std::size_t i) const {
+  bool IsEar(std::size_t i) {
+    if (left_ == 0) return false;
     const std::size_t n = ring_.size();
     const Eigen::Vector2d& a = At(i + n - 1);
     const Eigen::Vector2d& b = At(i);
@@ -60,7 +67,8 @@ class EarClipper {
     const double area = Cross(a, b, c);
     // A straight corner can always go; so can one where the ring turns back on itself.
     if (area <= 0.0) return area == 0.0;
-    for (std::size_t k = 2; k + 1 < n; ++k) {
+    for (std::size_t k = 2; k + 1 < n && left_ > 0; ++k) {
+      --left_;
       const Eigen::Vector2d& p = At(i + k);
       if (p == a || p == b || p == c) continue;
       if (Cross(a, b, p) >= 0.0 && Cross(b, c, p) >= 0.0 && Cross(c, a, p) >= 0.0) {
@@ -183,6 +191,7 @@ class EarClipper {
 
   const std::vector<Eigen::Vector2d>& points_;
   std::vector<std::uint32_t> ring_;
+  std::size_t left_ = 0;
 };
 
 }  // namespace
