@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Learns the outcome models of the confidence (docs/confidence.md) from what `bench` writes.
 
-    scripts/learn_confidence.py RUNS... [--judge RUNS...]
+    scripts/learn_confidence.py RUNS... [--judge RUNS...] [--from OPTIONS.json]
 
 RUNS are evidence.csv files or folders that hold some, at any depth. The models are a logistic
 function of the evidence times a power of the posterior mass; --judge names runs that nothing is learned from:
-how the learned confidence does on them is printed, with exact binomial bounds. Needs Debian's
-python3-numpy and python3-scipy.
+how the learned confidence does on them is printed, with exact binomial bounds. --from takes weights
+that were learned from other runs (`ridgeline options`): the new ones stay near them where the RUNS
+are few. Needs Debian's python3-numpy and python3-scipy.
 """
 
 import argparse
@@ -20,6 +21,10 @@ from scipy.optimize import minimize
 from scipy.stats import beta
 
 RIDGE = 0.02
+NAMES = ["offset", "explained", "above_background", "information", "mass_power"]
+# How far weights learned from a few hundred runs may be off: one standard deviation (of the power:
+# of its logarithm).
+SPREAD = np.array([1.5, 1.0, 0.05, 0.1, 0.25])
 INFORMATION_NAT = 15.0
 # Of runs whose background is not known, and the bounds of the features (src/localize/confidence.cc).
 UNKNOWN_NAT = 10.0
@@ -69,14 +74,25 @@ def probability(b, x, mass):
     return mass ** np.exp(b[4]) / (1 + np.exp(-np.clip(x @ b[:4], -30, 30)))
 
 
-def fit(x, mass, y):
-    """Highest likelihood with a small ridge; the power is drawn to 1."""
+def fit(x, mass, y, earlier=None):
+    """Highest likelihood with a small ridge, the power drawn to 1; or near earlier weights."""
     def loss(b):
         p = np.clip(probability(b, x, mass), 1e-6, 1 - 1e-6)
         likelihood = (y * np.log(p) + (1 - y) * np.log(1 - p)).sum()
+        if earlier is not None:
+            return -likelihood + 0.5 * (((b - earlier) / SPREAD) ** 2).sum()
         return -likelihood + RIDGE * (b[1:4] ** 2).sum() + 0.5 * b[4] ** 2
     starts = [np.array([offset, 1.0, 0.1, 0.1, 0.0]) for offset in (-4.0, -2.0, 0.0)]
+    starts = starts if earlier is None else [earlier]
     return min((minimize(loss, start, method="BFGS") for start in starts), key=lambda r: r.fun).x
+
+
+def earlier_weights(path, name):
+    """Of an outcome, from the program's options; None without a file."""
+    if path is None:
+        return None
+    weights = json.loads(pathlib.Path(path).read_text())["confidence"][name]
+    return np.array([*(weights[key] for key in NAMES[:4]), np.log(weights["mass_power"])])
 
 
 def upper_bound(wrong, count):
@@ -106,14 +122,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("runs", nargs="+")
     parser.add_argument("--judge", nargs="+", default=[])
+    parser.add_argument("--from", dest="earlier", metavar="OPTIONS.json")
     arguments = parser.parse_args()
     rows = read(arguments.runs)
-    right, near = outcomes(rows)
-    models = [("right", fit(*features(rows), right)), ("near", fit(*features(rows), near))]
+    models = [(name, fit(*features(rows), outcome, earlier_weights(arguments.earlier, name)))
+              for name, outcome in zip(["right", "near"], outcomes(rows))]
     for name, b in models:
-        values = [*b[:4], np.exp(b[4])]
-        print(name, dict(zip(["offset", "explained", "above_background", "information", "mass_power"],
-                             np.round(values, 3).tolist())))
+        print(name, dict(zip(NAMES, np.round([*b[:4], np.exp(b[4])], 3).tolist())))
     print(f"\nlearned from {len(rows)} runs:")
     judge(rows, models[0][1])
     if arguments.judge:

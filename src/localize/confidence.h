@@ -35,8 +35,8 @@ struct ConfidenceOptions {
   double doubtful_below = 0.6;
   // That an answer is within 2 m and 2 degrees, and that it is within 5 m and 5 degrees; for scores
   // that judge no buildings the confidence is the posterior mass.
-  OutcomeModel right{-7.4, 6.0, 0.30, 0.40, 1.28};
-  OutcomeModel near{-8.3, 6.6, 0.33, 0.44, 0.31};
+  OutcomeModel right{-6.5, 5.8, 0.29, 0.40, 1.19};
+  OutcomeModel near{-7.3, 6.8, 0.34, 0.44, 0.29};
   // Answers whose protection level is above this are withheld [m]; 0: none are.
   double alert_limit_m = 0.0;
   // Widens the posterior, since samples of a picture are correlated.
