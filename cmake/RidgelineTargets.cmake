@@ -47,13 +47,6 @@ function(ridgeline_add_tests name)
                                               GTest::gtest_main)
   target_include_directories(${name}_tests PRIVATE ${PROJECT_SOURCE_DIR}/tests
                                                    ${PROJECT_BINARY_DIR}/generated)
-  if(RIDGELINE_PRECOMPILE)
-    target_precompile_headers(${name}_tests REUSE_FROM ridgeline_synthetic_city)
-    # What GCC 12 warns of falsely once it has read headers that way; builds without see the rest.
-    target_compile_options(
-      ${name}_tests PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-error=stringop-overflow
-                            -Wno-error=array-bounds -Wno-error=maybe-uninitialized>)
-  endif()
   ridgeline_unity(${name}_tests ${name}_tests)
   include(GoogleTest)
   gtest_discover_tests(${name}_tests TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 120
