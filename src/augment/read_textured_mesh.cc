@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <assimp/GltfMaterial.h>
 #include <assimp/Importer.hpp>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <cctype>
+#include <cstdint>
+#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <system_error>
 
 #include "augment/textured_mesh.h"
 #include "base/error.h"
+#include "camera/decode_file.h"
 
 namespace ridgeline {
 namespace {
@@ -73,7 +77,11 @@ cv::Mat TextureOf(const aiScene& scene,
     warnings.push_back("texture " + relative + " is not below the model's folder: left out");
     return {};
   }
-  const cv::Mat texture = Usable(cv::imread(file.string(), cv::IMREAD_UNCHANGED));
+  std::error_code error;
+  cv::Mat texture;
+  if (fs::is_regular_file(file, error)) {
+    texture = Usable(DecodeFile(file, cv::IMREAD_UNCHANGED, "a texture"));
+  }
   if (texture.empty()) warnings.push_back("texture " + relative + " cannot be read: left out");
   return texture;
 }
@@ -134,11 +142,34 @@ bool IsTexturedFormat(const fs::path& path) {
   return std::find(known.begin(), known.end(), LowerExtension(path)) != known.end();
 }
 
+namespace {
+
+// assimp makes room for what a binary glTF says that it holds.
+void CheckLengthOfGlb(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::array<unsigned char, 16> head{};
+  stream.read(reinterpret_cast<char*>(head.data()), head.size());
+  const auto number = [&head](std::size_t at) {
+    return head[at] | head[at + 1] << 8 | head[at + 2] << 16 |
+           static_cast<std::uint64_t>(head[at + 3]) << 24;
+  };
+  const std::uint64_t size = fs::file_size(path);
+  if (number(8) <= size && number(12) <= size) return;
+  throw InputError(path.string(),
+                   "header",
+                   "the length " + std::to_string(std::max(number(8), number(12))) +
+                       " in a file of " + std::to_string(size) + " bytes",
+                   "a whole file (was the copy cut off?)");
+}
+
+}  // namespace
+
 TexturedMesh ReadTexturedMesh(const fs::path& path, bool y_up) {
   std::error_code error;
   if (!fs::is_regular_file(path, error)) {
     throw InputError(path.string(), "", "nothing", "a model (glTF, GLB, OBJ, ...)");
   }
+  if (LowerExtension(path) == ".glb") CheckLengthOfGlb(path);
   Assimp::Importer importer;
   // Nodes' transforms are applied, so that one list of triangles is left.
   const aiScene* const scene =

@@ -121,11 +121,54 @@ void CheckParameters(const CameraIntrinsics& camera,
         is_point ? kMostSides * std::max(camera.width, camera.height) : kMostDistortion;
     if (std::abs(params[i]) <= most) continue;
     throw InputError(file,
-                     field + ".params[" + std::to_string(i) + "]",
+                     field + "params[" + std::to_string(i) + "]",
                      Rounded("%.6g", params[i]),
                      is_point ? "a principal point in pixels, in the picture or near it"
                               : "a parameter of distortion (of normalized coordinates)");
   }
+}
+
+// The share of the way from the principal point to the farthest corner up to which distorted points
+// go outwards as their rays do; 1: all of it.
+double ShareWithoutFold(const CameraIntrinsics& camera) {
+  const PinholeCamera pinhole = camera.Pinhole();
+  const Distortion d = DistortionOf(camera);
+  const double x = std::max(pinhole.cx, pinhole.width - pinhole.cx) / pinhole.fx;
+  const double y = std::max(pinhole.cy, pinhole.height - pinhole.cy) / pinhole.fy;
+  const double corner = std::hypot(x, y);
+  constexpr double kSteps = 200.0;
+  constexpr int kMostSteps = 4000;
+  double before = 0.0;
+  for (int i = 1; i <= kMostSteps && before < corner; ++i) {
+    const Eigen::Vector2d ray(i * corner / kSteps, 0.0);
+    const double radius =
+        ray.x() + Displacement({d.k1, d.k2, 0, 0, d.k3, d.k4, d.k5, d.k6}, ray).x();
+    if (!(radius > before)) break;
+    before = radius;
+  }
+  return std::min(before / corner, 1.0);
+}
+
+void CheckShape(const CameraIntrinsics& camera, const std::string& file, const std::string& field) {
+  constexpr double kMostAspect = 2.0;
+  const PinholeCamera pinhole = camera.Pinhole();
+  const double aspect = pinhole.fx / pinhole.fy;
+  if (aspect > kMostAspect || aspect < 1.0 / kMostAspect) {
+    throw InputError(file,
+                     field + "params[1]",
+                     Rounded("%.6g", pinhole.fy) + " beside " + Rounded("%.6g", pinhole.fx),
+                     "focal lengths across and down that are nearly the same");
+  }
+  if (!camera.HasDistortion()) return;
+  // Calibrations may fold near the corners, where they had no points.
+  constexpr double kLeastShare = 0.5;
+  const double share = ShareWithoutFold(camera);
+  if (share >= kLeastShare) return;
+  throw InputError(file,
+                   field + "params",
+                   "a distortion that folds the picture at " + Rounded("%.0f", 100.0 * share) +
+                       " % of the way to its corner",
+                   "that of a lens, in the order of " + camera.model);
 }
 
 }  // namespace
@@ -144,23 +187,24 @@ PinholeCamera PinholeCamera::Scaled(double scale) const {
 }
 
 void CameraIntrinsics::Validate(const std::string& file, const std::string& field) const {
+  const std::string place = field.empty() ? "" : field + ".";
   const ModelLayout* layout = FindModel(model);
   if (layout == nullptr) {
     std::string names;
     for (const ModelLayout& m : kModels) names += (names.empty() ? "" : ", ") + std::string(m.name);
-    throw InputError(file, field + ".model", "\"" + model + "\"", "one of " + names);
+    throw InputError(file, place + "model", "\"" + model + "\"", "one of " + names);
   }
-  if (width <= 0) throw InputError(file, field + ".width", std::to_string(width), "> 0");
-  if (height <= 0) throw InputError(file, field + ".height", std::to_string(height), "> 0");
+  if (width <= 0) throw InputError(file, place + "width", std::to_string(width), "> 0");
+  if (height <= 0) throw InputError(file, place + "height", std::to_string(height), "> 0");
   if (std::int64_t{width} * height > limits::kPicturePixels) {
     throw InputError(file,
-                     field + ": limit",
+                     (field.empty() ? "" : field + ": ") + "limit",
                      std::to_string(width) + " x " + std::to_string(height) + " px",
                      "at most " + std::to_string(limits::kPicturePixels) + " px (a smaller copy)");
   }
   if (params.size() != layout->num_params) {
     throw InputError(file,
-                     field + ".params",
+                     place + "params",
                      std::to_string(params.size()) + " numbers",
                      std::to_string(layout->num_params) + " for " + model);
   }
@@ -168,19 +212,20 @@ void CameraIntrinsics::Validate(const std::string& file, const std::string& fiel
     const bool is_focal = i == 0 || (i == 1 && layout->two_focal_lengths);
     if (!std::isfinite(params[i]) || (is_focal && params[i] <= 0.0)) {
       throw InputError(file,
-                       field + ".params[" + std::to_string(i) + "]",
+                       place + "params[" + std::to_string(i) + "]",
                        std::to_string(params[i]),
                        is_focal ? "a focal length > 0" : "a finite number");
     }
     if (is_focal && !IsPlausibleFocal(params[i], width, height)) {
       throw InputError(file,
-                       field + ".params[" + std::to_string(i) + "]",
+                       place + "params[" + std::to_string(i) + "]",
                        OddFocal(params[i], width, height),
                        "a focal length in pixels, a field of view of 5 to 150 deg" +
                            MeantFocal(params[i], width, height));
     }
   }
-  CheckParameters(*this, file, field);
+  CheckParameters(*this, file, place);
+  CheckShape(*this, file, place);
 }
 
 bool CameraIntrinsics::HasDistortion() const {
@@ -225,8 +270,7 @@ cv::Mat DistortedPlaces(const cv::Size& size, const CameraIntrinsics& camera) {
   const auto nodes_of_row = [&](int y) {
     std::vector<cv::Vec2f> row;
     for (int i = 0; i < nodes; ++i) {
-      const Eigen::Vector2d ray =
-          pinhole.RayFromImage({i * kSpacing + 0.5, y + 0.5}).head<2>();
+      const Eigen::Vector2d ray = pinhole.RayFromImage({i * kSpacing + 0.5, y + 0.5}).head<2>();
       const Eigen::Vector2d px = camera.Distort(ray);
       row.emplace_back(static_cast<float>(px.x() - 0.5), static_cast<float>(px.y() - 0.5));
     }

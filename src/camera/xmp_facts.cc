@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -13,15 +14,20 @@
 namespace ridgeline {
 namespace {
 
-std::optional<double> NumberOf(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '+')) text.remove_prefix(1);
+std::optional<double> NumberOf(std::string text) {
+  text.erase(0, text.find_first_not_of(" +"));
+  // Of programs in countries that write a comma for the point.
+  if (text.find('.') == std::string::npos) std::replace(text.begin(), text.end(), ',', '.');
   double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const char* const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, value);
+  // A second point or comma: not one number.
+  if (end != last && (*end == '.' || *end == ',')) return std::nullopt;
   if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
   // Pix4D writes heights and angles as fractions too.
-  if (end != text.data() + text.size() && *end == '/') {
+  if (end != last && *end == '/') {
     double denominator = 0.0;
-    std::from_chars(end + 1, text.data() + text.size(), denominator);
+    std::from_chars(end + 1, last, denominator);
     value /= denominator;
     if (!std::isfinite(value)) return std::nullopt;
   }

@@ -12,6 +12,7 @@
 #include "augment/impact.h"
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/text_file.h"
 #include "camera/local_frame.h"
 #include "cli/augment_parts.h"
 #include "cli/command.h"
@@ -47,7 +48,7 @@ std::vector<std::string> Fields(const std::string& line) {
 std::map<std::string, Pose> ReadFramePoses(const std::string& file) {
   static const std::array<const char*, 7> kColumns = {
       "id", "east_m", "north_m", "height_m", "heading_deg", "pitch_deg", "roll_deg"};
-  std::istringstream text(ReadFile(file));
+  std::istringstream text(ReadText(file));
   std::string line;
   std::getline(text, line);
   const std::vector<std::string> header = Fields(line);

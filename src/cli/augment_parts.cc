@@ -12,6 +12,7 @@
 #include "augment/sun.h"
 #include "base/angle.h"
 #include "base/error.h"
+#include "camera/decode_file.h"
 #include "city/crs.h"
 #include "city/read_city.h"
 
@@ -90,8 +91,18 @@ TexturedMesh ReadInsertedBuilding(const AugmentArguments& arguments,
                                   const CityModel& model,
                                   const HeightGrid* dtm,
                                   const Context& context) {
-  if (!(arguments.scale > 0.0)) {
-    throw InputError("--scale", "", std::to_string(arguments.scale), "more than 0");
+  constexpr double kMostScale = 1e6;
+  constexpr double kMostDeg = 720.0;
+  if (!(arguments.scale > 0.0 && arguments.scale <= kMostScale)) {
+    throw InputError("--scale", "", std::to_string(arguments.scale), "more than 0, at most 1e6");
+  }
+  const std::pair<const char*, double> angles[] = {
+      {"--heading", arguments.heading_deg},
+      {"--light-azimuth", arguments.light_azimuth_deg},
+      {"--light-elevation", arguments.light_elevation_deg}};
+  for (const auto& [option, deg] : angles) {
+    if (std::abs(deg) <= kMostDeg) continue;  // false for NaN
+    throw InputError(option, "", std::to_string(deg), "degrees, -720 to 720");
   }
   const bool textured =
       arguments.building.size() == 1 && IsTexturedFormat(arguments.building.front());
@@ -152,7 +163,7 @@ cv::Mat ForegroundOf(const AugmentArguments& arguments,
   fs::path file = arguments.foreground;
   std::error_code error;
   if (fs::is_directory(file, error)) file /= id + ".png";
-  const cv::Mat mask = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
+  const cv::Mat mask = DecodeFile(file, cv::IMREAD_GRAYSCALE, "a mask");
   if (mask.empty()) throw InputError(file.string(), "", "nothing that can be read", "a mask (PNG)");
   if (mask.size() != photo.size()) {
     throw InputError(file.string(),

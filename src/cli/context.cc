@@ -3,16 +3,19 @@
 
 #include <iostream>
 
+#include "cli/one_line.h"
+
 namespace ridgeline {
 
 void Context::Print(std::string_view line) const { std::cout << line << '\n'; }
 
 void Context::Note(std::string_view line) const {
-  if (!quiet) std::cerr << line << '\n';
+  if (!quiet) std::cerr << OneLine(line) << '\n';
 }
 
 void Context::Warn(std::string_view line) const {
-  if (!quiet) std::cerr << Colored(color_err, Color::kYellow, "warning: ") << line << '\n';
+  if (quiet) return;
+  std::cerr << Colored(color_err, Color::kYellow, "warning: ") << OneLine(line) << '\n';
 }
 
 std::string Colored(bool enabled, Color color, std::string_view text) {

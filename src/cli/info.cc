@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cli/one_line.h"
 #include "cli/info.h"
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include "city/format/formats.h"
 #include "city/store/city_store.h"
 #include "cli/command.h"
+#include "cli/one_line.h"
 
 namespace ridgeline {
 namespace {
@@ -136,7 +138,7 @@ void PrintCity(const CityInfo& info, const Context& context) {
   for (const ModelFileInfo& file : info.files) {
     context.Print(file.file + ": " + file.format + ", " +
                   Fixed(static_cast<double>(file.bytes) / 1e6, 2) + " MB");
-    for (const std::string& name : file.srs_names) line("CRS as written", name);
+    for (const std::string& name : file.srs_names) line("CRS as written", OneLine(name, 400));
     if (file.srs_names.empty()) line("CRS as written", "none");
     for (const auto& [lod, count] : file.buildings_of_lod) {
       line("LoD" + std::to_string(lod),
@@ -181,7 +183,7 @@ void PrintCity(const CityInfo& info, const Context& context) {
   line("crossing shells", Shortened(info.crossing_shells));
   if (info.warnings.empty()) return;
   context.Print("dropped or repaired (--json lists the ids)");
-  for (const std::string& warning : info.warnings) context.Print("  " + warning);
+  for (const std::string& warning : info.warnings) context.Print("  " + OneLine(warning));
 }
 
 void PrintRaster(const RasterInfo& info, const Context& context) {
@@ -201,9 +203,11 @@ void PrintRaster(const RasterInfo& info, const Context& context) {
     context.Print(
         "  known    " + Fixed(100.0 * info.known_share, 2) + " %" +
         (info.row_step > 1 ? " (of every row in " + std::to_string(info.row_step) + ")" : ""));
-    for (const std::string& warning : info.warnings) context.Print("  " + warning);
+    for (const std::string& warning : info.warnings) context.Print("  " + OneLine(warning));
   }
-  for (const auto& [key, value] : info.exif) context.Print("  " + key + " = " + value);
+  for (const auto& [key, value] : info.exif) {
+    context.Print("  " + OneLine(key, 80) + " = " + OneLine(value, 200));
+  }
   if (!info.georeferenced) {
     context.Print(std::string("  EXIF ") + (info.exif.empty() ? "none" : "above") + ", XMP " +
                   (info.has_xmp ? "present" : "none"));

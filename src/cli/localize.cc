@@ -14,6 +14,7 @@
 #include "cli/progress.h"
 #include "cli/query_input.h"
 #include "cli/sensor_priors.h"
+#include "cli/unsigned_option.h"
 #include "cli/version.h"
 #include "eval/localize_task.h"
 #include "eval/pose_json.h"
@@ -276,7 +277,8 @@ void AddLocalizeCommand(CLI::App& app, Context& context) {
                       arguments->out,
                       "Folder for pose.json, report.json, overlay.png, map.geojson, energy.tif");
   command->add_option("--report", arguments->report, "HTML report");
-  command->add_option("--seed", arguments->seed, "Seed of the samplers (default 1)");
+  command->add_option("--seed", arguments->seed, "Seed of the samplers (default 1)")
+      ->check(Unsigned());
   AddConfigOptions(*command, arguments->config);
 }
 

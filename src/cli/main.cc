@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <new>
+#include <opencv2/core.hpp>
 #include <opencv2/core/utility.hpp>
 #include <string>
 #include <vector>
@@ -17,6 +19,10 @@
 namespace {
 
 using namespace ridgeline;
+
+constexpr char kNoMemory[] =
+    "memory: got too little for inputs of this size, expected smaller ones (a picture, a raster, a "
+    "part of the model), fewer --threads, or a larger machine";
 
 bool TakesColors(int descriptor) {
   const char* no_color = std::getenv("NO_COLOR");
@@ -99,6 +105,11 @@ int main(int argc, char** argv) {
     return exit_code;
   } catch (const InputError& e) {
     return Fail(context, e.what(), kExitBadInput);
+  } catch (const std::bad_alloc&) {
+    return Fail(context, kNoMemory, kExitBadInput);
+  } catch (const cv::Exception& e) {
+    if (e.code == cv::Error::StsNoMem) return Fail(context, kNoMemory, kExitBadInput);
+    return Fail(context, "internal error, please report it: " + e.msg, kExitInternal);
   } catch (const std::exception& e) {
     return Fail(
         context, std::string("internal error, please report it: ") + e.what(), kExitInternal);

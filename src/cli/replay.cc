@@ -12,6 +12,7 @@
 #include "cli/out_folder.h"
 #include "cli/progress.h"
 #include "cli/sequence_input.h"
+#include "cli/unsigned_option.h"
 #include "cli/version.h"
 #include "eval/bench.h"
 #include "input/picture_input.h"
@@ -293,7 +294,8 @@ void AddLoeper(CLI::App& replay, Context& context) {
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
   command->add_option("--seed", arguments->replay.seed, "Seed of priors and samplers")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(Unsigned());
 }
 
 void AddAyadi(CLI::App& replay, Context& context) {

@@ -5,6 +5,7 @@
 
 #include "cli/command.h"
 #include "cli/study_run.h"
+#include "cli/unsigned_option.h"
 
 namespace ridgeline {
 
@@ -50,7 +51,8 @@ void AddStudyCommand(CLI::App& app, Context& context) {
                    "and deg")
       ->excludes("--protocol");
   command->add_option("--seed", arguments->seed, "Seed of priors, searches and variations")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(Unsigned());
   command
       ->add_option("--classes",
                    arguments->classes,

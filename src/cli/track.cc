@@ -5,6 +5,7 @@
 
 #include "cli/command.h"
 #include "cli/track_run.h"
+#include "cli/unsigned_option.h"
 
 namespace ridgeline {
 
@@ -45,7 +46,8 @@ void AddTrackCommand(CLI::App& app, Context& context) {
   command->add_option("--idle", input.idle_s, "With --follow: end after so long without one [s]")
       ->check(CLI::PositiveNumber)
       ->needs("--follow");
-  command->add_option("--seed", request->seed, "Seed of the particles (default 1)");
+  command->add_option("--seed", request->seed, "Seed of the particles (default 1)")
+      ->check(Unsigned());
   AddConfigOptions(*command, request->config);
 }
 

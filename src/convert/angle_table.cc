@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -97,6 +98,11 @@ Dataset ReadAngleTable(const fs::path& file, const ConvertOptions& options) {
     const auto number = [&](std::size_t c) { return line.Number((*places)[c], Columns()[c].name); };
     if ((*places)[0] >= line.size() || line[(*places)[0]].empty()) {
       line.Fail("\"" + line.text() + "\"", "the name of a picture");
+    }
+    constexpr double kMostDeg = 720.0;
+    for (const std::size_t c : {4, 5, 6}) {
+      if (std::abs(number(c)) <= kMostDeg) continue;
+      line.Fail("\"" + line[(*places)[c]] + "\"", std::string("an angle in degrees for ") + Columns()[c].name);
     }
     Query query;
     query.image = line[(*places)[0]];

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string_view>
 
-#include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/text_file.h"
 
 namespace ridgeline {
 namespace {
@@ -104,7 +104,7 @@ void TextLine::Fail(const std::string& found, const std::string& expected) const
 }
 
 std::vector<TextLine> ReadLines(const std::filesystem::path& path, char delimiter) {
-  const std::string content = ReadFile(path);
+  const std::string content = ReadText(path);
   std::vector<TextLine> lines;
   std::size_t at = content.starts_with("\xEF\xBB\xBF") ? 3 : 0;
   while (at < content.size()) {

@@ -39,8 +39,23 @@ struct Topocentric::Impl {
   }
 };
 
+namespace {
+
+[[noreturn]] void FailPlace(double latitude_deg, double longitude_deg) {
+  throw InputError("reference_lla",
+                   "",
+                   std::to_string(latitude_deg) + ", " + std::to_string(longitude_deg),
+                   "latitude and longitude of the topocentric frame [deg]");
+}
+
+}  // namespace
+
 Topocentric::Topocentric(double latitude_deg, double longitude_deg, double height_m)
     : impl_(std::make_unique<Impl>()) {
+  // PROJ would say the same, on the terminal.
+  if (!(std::abs(latitude_deg) <= 90.0 && std::abs(longitude_deg) <= 360.0)) {
+    FailPlace(latitude_deg, longitude_deg);
+  }
   impl_->earth_from_local = AxesAt(latitude_deg * kRadPerDeg, longitude_deg * kRadPerDeg);
   std::ostringstream pipeline;
   pipeline.imbue(std::locale::classic());
@@ -49,12 +64,7 @@ Topocentric::Topocentric(double latitude_deg, double longitude_deg, double heigh
            << " +lon_0=" << longitude_deg << " +h_0=" << height_m
            << " +step +inv +proj=cart +step +proj=unitconvert +xy_in=rad +xy_out=deg";
   impl_->geodetic_from_local = proj_create(impl_->context, pipeline.str().c_str());
-  if (impl_->geodetic_from_local == nullptr) {
-    throw InputError("",
-                     "place of the topocentric frame",
-                     std::to_string(latitude_deg) + ", " + std::to_string(longitude_deg),
-                     "a latitude and a longitude [deg]");
-  }
+  if (impl_->geodetic_from_local == nullptr) FailPlace(latitude_deg, longitude_deg);
 }
 
 Topocentric::~Topocentric() = default;

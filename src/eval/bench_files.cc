@@ -9,9 +9,9 @@
 #include <sstream>
 #include <vector>
 
-#include "base/atomic_file.h"
 #include "base/decimals.h"
 #include "base/error.h"
+#include "base/text_file.h"
 #include "camera/check_pose.h"
 #include "camera/local_frame.h"
 #include "eval/csv_text.h"
@@ -199,7 +199,7 @@ std::string PosesText(std::span<const RunRecord> runs, const Eigen::Vector3d& or
 }
 
 std::map<std::string, Pose> ReadPosesCsv(const std::filesystem::path& path) {
-  std::istringstream stream(ReadFile(path));
+  std::istringstream stream(ReadText(path));
   std::string line;
   std::getline(stream, line);
   const std::vector<std::string> header = Fields(line);
@@ -238,7 +238,10 @@ std::map<std::string, Pose> ReadPosesCsv(const std::filesystem::path& path) {
     CheckPlace(pose.center_in_world, path.string(), place);
     pose.cam_from_world =
         UnitQuaternion(std::span(values).subspan(3), path.string(), place + ": qw,qx,qy,qz");
-    poses[fields[columns[0]]] = pose;
+    if (!poses.emplace(fields[columns[0]], pose).second) {
+      throw InputError(
+          path.string(), place, "\"" + fields[columns[0]] + "\" again", "one line per query");
+    }
   }
   if (poses.empty()) throw InputError(path.string(), "", "no pose", "one line per query");
   return poses;

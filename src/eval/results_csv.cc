@@ -8,8 +8,8 @@
 #include <sstream>
 #include <string>
 
-#include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/text_file.h"
 #include "eval/csv_text.h"
 
 namespace ridgeline {
@@ -84,7 +84,7 @@ RunRecord RecordOf(const Row& row) {
 }  // namespace
 
 std::vector<RunRecord> ReadResultsCsv(const std::filesystem::path& path) {
-  std::istringstream stream(ReadFile(path));
+  std::istringstream stream(ReadText(path));
   std::map<std::string, std::size_t> columns;
   std::vector<std::string> header;
   ReadCsvRow(stream, header);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/regular_file.h"
 
 namespace ridgeline {
 namespace {
@@ -54,6 +55,7 @@ std::string Sha256Of(std::string_view bytes) {
 }
 
 std::string Sha256OfFile(const std::filesystem::path& path) {
+  RequireRegularFile(path, "an existing file");
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw InputError(path.string(), "", "no readable file", "an existing file");
   Digest digest;

@@ -308,6 +308,30 @@ PictureInput ReadPictureInput(const Query& query,
   return input;
 }
 
+namespace {
+
+// Some programs write the principal point from the middle of the picture.
+std::optional<Assumption> PrincipalPointDoubt(const CameraIntrinsics& camera,
+                                              const std::string& source) {
+  constexpr double kMostShare = 0.1;
+  const PinholeCamera pinhole = camera.Pinhole();
+  if (std::abs(pinhole.cx) > kMostShare * camera.width ||
+      std::abs(pinhole.cy) > kMostShare * camera.height) {
+    return std::nullopt;
+  }
+  return Assumption{
+      "camera",
+      FormatText("principal point %.6g, %.6g px as written, in the picture's corner; if it counts "
+                 "from the middle, write %.6g, %.6g",
+                 pinhole.cx,
+                 pinhole.cy,
+                 pinhole.cx + 0.5 * camera.width,
+                 pinhole.cy + 0.5 * camera.height),
+      source};
+}
+
+}  // namespace
+
 PictureInput CompleteFromPicture(const Dataset& dataset,
                                  bool prior,
                                  const PictureInputOptions& options,
@@ -323,6 +347,11 @@ PictureInput CompleteFromPicture(const Dataset& dataset,
     for (Assumption& assumption :
          AssumptionsOf(*query.prior, options.camera_height_m, dataset.file.string())) {
       query.assumptions.push_back(std::move(assumption));
+    }
+  }
+  if (query.camera) {
+    if (auto doubt = PrincipalPointDoubt(*query.camera, dataset.file.string())) {
+      query.assumptions.push_back(std::move(*doubt));
     }
   }
   if (query.camera && !wants_prior) return {};

@@ -6,9 +6,9 @@
 #include <sstream>
 #include <string>
 
-#include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/limits.h"
+#include "base/text_file.h"
 
 namespace ridgeline {
 namespace {
@@ -22,7 +22,7 @@ Eigen::Vector2f UndistortedPoint(const CameraIntrinsics& camera, double x, doubl
 
 std::vector<LineSegment> ReadSegments(const std::filesystem::path& path,
                                       const CameraIntrinsics& camera) {
-  std::istringstream text(ReadFile(path));
+  std::istringstream text(ReadText(path));
   std::vector<LineSegment> segments;
   std::string line;
   for (int number = 1; std::getline(text, line); ++number) {
@@ -36,8 +36,10 @@ std::vector<LineSegment> ReadSegments(const std::filesystem::path& path,
     double score = 1.0;
     const bool has_ends = static_cast<bool>(fields >> x0 >> y0 >> x1 >> y1);
     if (has_ends) fields >> score;
-    const bool finite = std::isfinite(x0 + y0 + x1 + y1 + score) && score > 0.0;
-    if (!has_ends || !finite) {
+    constexpr double kFarthestPx = 1e6;
+    const bool near =
+        std::max({std::abs(x0), std::abs(y0), std::abs(x1), std::abs(y1)}) <= kFarthestPx;
+    if (!has_ends || !near || !(score > 0.0) || !std::isfinite(score)) {
       throw InputError(path.string(),
                        "line " + std::to_string(number),
                        "\"" + line + "\"",

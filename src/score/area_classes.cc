@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "camera/decode_file.h"
 #include "skyline/sky_likelihood.h"
 
 namespace ridgeline {
@@ -74,7 +75,7 @@ void AreaOptions::Visit(OptionVisitor& v) {
 }
 
 cv::Mat ReadClasses(const std::filesystem::path& path, const PinholeCamera& camera) {
-  const cv::Mat read = cv::imread(path.string(), cv::IMREAD_UNCHANGED);
+  const cv::Mat read = DecodeFile(path, cv::IMREAD_UNCHANGED, "a class image or mask");
   if (read.empty()) {
     throw InputError(path.string(), "", "nothing that can be read", "a class image or mask (PNG)");
   }

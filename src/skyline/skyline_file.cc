@@ -9,8 +9,9 @@
 #include <system_error>
 #include <vector>
 
-#include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/text_file.h"
+#include "camera/decode_file.h"
 
 namespace ridgeline {
 namespace {
@@ -48,7 +49,7 @@ float ConfidenceAt(const cv::Mat& mask, int x, int end) {
 }
 
 Skyline FromMask(const fs::path& path, const CameraIntrinsics& camera) {
-  cv::Mat mask = cv::imread(path.string(), cv::IMREAD_GRAYSCALE);
+  cv::Mat mask = DecodeFile(path, cv::IMREAD_GRAYSCALE, "a sky mask");
   if (mask.empty()) {
     throw InputError(path.string(), "", "nothing that can be read", "a sky mask (PNG) or a CSV");
   }
@@ -153,7 +154,7 @@ class ColumnReader {
 };
 
 Skyline FromCsv(const fs::path& path, const CameraIntrinsics& camera) {
-  std::istringstream text(ReadFile(path));
+  std::istringstream text(ReadText(path));
   std::string line;
   std::getline(text, line);
   const ColumnReader reader(path.string(), Fields(line));

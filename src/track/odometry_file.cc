@@ -7,8 +7,8 @@
 #include <map>
 #include <sstream>
 
-#include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/text_file.h"
 
 namespace ridgeline {
 namespace {
@@ -88,6 +88,9 @@ class OdometryReader {
     if (text.empty() || *end != '\0' || !std::isfinite(value)) {
       Fail(field, '"' + text + '"', "a number");
     }
+    // Seconds since 1970 are numbers, too.
+    constexpr double kMost = 1e12;
+    if (std::abs(value) > kMost) Fail(field, text, "a number of at most 1e12");
     return value;
   }
 
@@ -269,7 +272,7 @@ std::vector<std::optional<Place>> PlacesOf(const Odometry& odometry,
 
 Odometry ReadOdometry(const std::filesystem::path& path) {
   OdometryReader reader(path);
-  std::istringstream text(ReadFile(path));
+  std::istringstream text(ReadText(path));
   std::string line;
   for (int number = 1; std::getline(text, line); ++number) reader.Line(line, number);
   return reader.Done();

@@ -4,10 +4,11 @@
 #include <cstdlib>
 #include <set>
 #include <sstream>
+#include <string>
 #include <string_view>
 
-#include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/text_file.h"
 #include "track/sensors.h"
 
 namespace ridgeline {
@@ -37,15 +38,23 @@ constexpr NumberColumn kNumbers[] = {
 constexpr const char* kAxes[] = {"acc_x", "acc_y", "acc_z"};
 constexpr const char* kRates[] = {"gyro_x", "gyro_y", "gyro_z"};
 
-std::vector<std::string> Fields(const std::string& line) {
-  std::vector<std::string> fields(1);
-  for (const char c : line) {
-    if (c == ',') {
-      fields.emplace_back();
-    } else if (c != '\r' && c != ' ' && c != '\t') {
-      fields.back() += c;
-    }
+// Without blanks and quotes around it.
+std::string Bare(std::string_view field) {
+  constexpr std::string_view kBlanks = " \t\r";
+  const std::size_t first = field.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  field = field.substr(first, field.find_last_not_of(kBlanks) - first + 1);
+  const bool quoted = field.size() >= 2 && field.front() == '"' && field.back() == '"';
+  return std::string(quoted ? field.substr(1, field.size() - 2) : field);
+}
+
+std::vector<std::string> Fields(std::string_view line) {
+  std::vector<std::string> fields;
+  for (std::size_t comma; (comma = line.find(',')) != std::string_view::npos;) {
+    fields.push_back(Bare(line.substr(0, comma)));
+    line.remove_prefix(comma + 1);
   }
+  fields.push_back(Bare(line));
   return fields;
 }
 
@@ -144,7 +153,7 @@ class SensorReader {
 std::vector<SensorReading> ReadSensors(const std::filesystem::path& path) {
   SensorReader reader(path.string());
   std::vector<SensorReading> readings;
-  std::istringstream text(ReadFile(path));
+  std::istringstream text(ReadText(path));
   std::string line;
   for (int number = 1; std::getline(text, line); ++number) {
     const std::vector<std::string> fields = Fields(line);

@@ -34,8 +34,12 @@ TEST(CameraIntrinsics, DistortsAsOpenCv) {
   for (int i = 0; i < 200; ++i) {
     const Eigen::Vector2d ray(random.Uniform(-0.6, 0.6), random.Uniform(-0.4, 0.4));
     std::vector<cv::Point2d> projected;
-    cv::projectPoints(std::vector<cv::Point3d>{{ray.x(), ray.y(), 1.0}}, cv::Vec3d(), cv::Vec3d(), k,
-                      d, projected);
+    cv::projectPoints(std::vector<cv::Point3d>{{ray.x(), ray.y(), 1.0}},
+                      cv::Vec3d(),
+                      cv::Vec3d(),
+                      k,
+                      d,
+                      projected);
     const Eigen::Vector2d px = camera.Distort(ray);
     EXPECT_NEAR(px.x(), projected[0].x, 1e-9);
     EXPECT_NEAR(px.y(), projected[0].y, 1e-9);
@@ -46,8 +50,9 @@ TEST(CameraIntrinsics, DistortsAsOpenCv) {
 TEST(CameraIntrinsics, ModelsReadTheirParametersInColmapsOrder) {
   const CameraIntrinsics simple{"SIMPLE_RADIAL", 100, 80, {90.0, 50.0, 40.0, 0.1}};
   // r^2 = 0.05: x = 0.2 * (1 + 0.1 * 0.05).
-  EXPECT_TRUE(simple.Distort({0.2, 0.1}).isApprox(
-      Eigen::Vector2d(90.0 * 0.2 * 1.005 + 50.0, 90.0 * 0.1 * 1.005 + 40.0), 1e-12));
+  EXPECT_TRUE(
+      simple.Distort({0.2, 0.1})
+          .isApprox(Eigen::Vector2d(90.0 * 0.2 * 1.005 + 50.0, 90.0 * 0.1 * 1.005 + 40.0), 1e-12));
   const CameraIntrinsics radial{"RADIAL", 100, 80, {90.0, 50.0, 40.0, 0.1, 0.2}};
   EXPECT_NEAR(radial.Distort({0.2, 0.1}).x(), 90.0 * 0.2 * 1.0055 + 50.0, 1e-12);
   const PinholeCamera pinhole =
@@ -60,8 +65,9 @@ TEST(CameraIntrinsics, ModelsReadTheirParametersInColmapsOrder) {
 TEST(CameraIntrinsics, BadCamerasAreNamed) {
   CameraIntrinsics camera = OpenCvCamera();
   camera.model = "FISHEYE";
-  EXPECT_THAT(MessageOf(camera), testing::StartsWith("dataset.json: queries[0].camera.model: got "
-                                                     "\"FISHEYE\", expected one of SIMPLE_PINHOLE"));
+  EXPECT_THAT(MessageOf(camera),
+              testing::StartsWith("dataset.json: queries[0].camera.model: got "
+                                  "\"FISHEYE\", expected one of SIMPLE_PINHOLE"));
   camera = OpenCvCamera();
   camera.params.pop_back();
   EXPECT_EQ(MessageOf(camera),
@@ -72,6 +78,23 @@ TEST(CameraIntrinsics, BadCamerasAreNamed) {
   camera = OpenCvCamera();
   camera.width = 0;
   EXPECT_EQ(MessageOf(camera), "dataset.json: queries[0].camera.width: got 0, expected > 0");
+}
+
+TEST(CameraIntrinsics, DistortionThatFoldsThePictureIsNone) {
+  CameraIntrinsics camera{"SIMPLE_RADIAL", 640, 480, {481.0, 320.0, 240.0, -5.0}};
+  EXPECT_THAT(
+      MessageOf(camera),
+      testing::HasSubstr("camera.params: got a distortion that folds the picture at 21 % of "
+                         "the way to its corner, expected that of a lens"));
+  camera.params[3] = -0.4;  // a fisheye-like action camera's
+  EXPECT_EQ(MessageOf(camera), "no error");
+  camera.params[3] = 0.4;
+  EXPECT_EQ(MessageOf(camera), "no error");
+}
+
+TEST(CameraIntrinsics, FocalLengthsFarApartAreNamed) {
+  const CameraIntrinsics camera{"PINHOLE", 640, 480, {481.0, 1100.0, 320.0, 240.0}};
+  EXPECT_THAT(MessageOf(camera), testing::HasSubstr("camera.params[1]: got 1100 beside 481"));
 }
 
 TEST(PinholeCamera, ScaledKeepsRays) {

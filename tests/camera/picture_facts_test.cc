@@ -154,6 +154,14 @@ TEST(PictureFacts, ReadsDjisGimbal) {
   EXPECT_FALSE(facts.direction->magnetic);
 }
 
+TEST(PictureFacts, DecimalCommasOfXmp) {
+  const PictureFacts facts = FactsOfXmp(Dji("-163,20", "-30,50", "+0,25"));
+  EXPECT_NEAR(facts.direction->heading_deg, 196.8, 1e-9);
+  EXPECT_NEAR(facts.direction->pitch_deg.value(), -30.5, 1e-9);
+  EXPECT_NEAR(facts.direction->roll_deg.value(), 0.25, 1e-9);
+  EXPECT_FALSE(FactsOfXmp(Dji("1,234.5", "-30.00", "+0.00")).direction.has_value());
+}
+
 // The same angles, as the older aircraft write them: elements instead of attributes.
 TEST(PictureFacts, ReadsXmpElements) {
   const PictureFacts facts = FactsOfXmp(

@@ -52,6 +52,28 @@ TEST(Program, MistypedOptionNamesTheNearest) {
             "error: no option \"--sede\"; did you mean \"--seed\"?\nSee ridgeline synth --help\n");
 }
 
+// The parser of arguments would make both of them the largest number there is.
+TEST(Program, SeedsBelowZeroAndBeyondAreRefused) {
+  for (const char* command : {"localize", "track", "study", "replay loeper"}) {
+    for (const char* seed : {"-1", "99999999999999999999", "1.5"}) {
+      const Outcome outcome = Ridgeline(std::string(command) + " x --seed " + seed);
+      EXPECT_EQ(outcome.exit_code, 2) << command;
+      EXPECT_THAT(outcome.text, HasSubstr("expected a whole number from 0 on")) << command << seed;
+    }
+  }
+}
+
+// A file's words are shown, not obeyed.
+TEST(Program, FilesDoNotSpeakToTheTerminal) {
+  const fs::path folder = Scratch("escape");
+  std::ofstream(folder / "p.json")
+      << R"({"type":"CityJSON","version":"2.0","vertices":[],)"
+         R"("CityObjects":{"\u001b[31m":{"type":"Building"}}})";
+  const std::string text = Ridgeline("info " + Quoted(folder / "p.json")).text;
+  EXPECT_THAT(text,
+              AllOf(HasSubstr("buildings without geometry dropped ( [31m)"), Not(HasSubstr("\x1b"))));
+}
+
 TEST(Program, HelpOfEveryCommandFitsAScreenAndHasAnExample) {
   std::istringstream help(Ridgeline("--help").text);
   std::string line;

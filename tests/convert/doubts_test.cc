@@ -76,6 +76,8 @@ TEST_F(Doubts, APlaceInNoWorldIsAnError) {
   EXPECT_EQ(Message([&] { Table("a.jpg,1e300,5412023,400,90,0,0\n"); }),
             "opk.csv: picture a.jpg: position: got 1e+300, expected east and north in metres, "
             "below 1e8");
+  EXPECT_THAT(Message([&] { Table("a.jpg,654239,5412023,400,90,-1e20,0\n"); }),
+              HasSubstr("opk.csv: line 2: got \"-1e20\", expected an angle in degrees for phi"));
   EXPECT_THAT(Message([&] { Table("a.jpg,654239,5412023,1e6,90,0,0\n"); }),
               HasSubstr("got the height 1000000"));
 }

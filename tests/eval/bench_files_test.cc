@@ -71,7 +71,8 @@ TEST(PosesCsv, BadFilesAreNamed) {
   const auto path = std::filesystem::path(testing::TempDir()) /
                     ("ridgeline_poses_" + std::to_string(::getpid()) + ".csv");
   for (const char* bad :
-       {"query,e,n\n", "query,e,n,h,qw,qx,qy,qz\n", "query,e,n,h,qw,qx,qy,qz\na,1,2,x,1,0,0,0\n"}) {
+       {"query,e,n\n", "query,e,n,h,qw,qx,qy,qz\n", "query,e,n,h,qw,qx,qy,qz\na,1,2,x,1,0,0,0\n",
+        "query,e,n,h,qw,qx,qy,qz\na,1,2,3,1,0,0,0\na,4,5,6,1,0,0,0\n"}) {
     WriteFileAtomically(path, bad);
     EXPECT_THROW(ReadPosesCsv(path), InputError) << bad;
   }

@@ -167,6 +167,7 @@ TEST(Sha256, KnownValues) {
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
   fs::remove(file);
   EXPECT_THROW(Sha256OfFile(file), InputError);
+  EXPECT_THROW(Sha256OfFile("/dev/zero"), InputError);  // no end
 }
 
 TEST(Shard, PartsCoverEveryPieceOnce) {

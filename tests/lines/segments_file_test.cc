@@ -12,9 +12,8 @@ namespace ridgeline {
 namespace {
 
 std::filesystem::path Write(const std::string& text) {
-  const std::filesystem::path path =
-      std::filesystem::path(testing::TempDir()) /
-      ("ridgeline_segments_" + std::to_string(::getpid()) + ".txt");
+  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) /
+                                     ("ridgeline_segments_" + std::to_string(::getpid()) + ".txt");
   WriteFileAtomically(path, text);
   return path;
 }
@@ -28,6 +27,11 @@ TEST(ReadSegments, ReadsCommentsScoresAndBlankLines) {
   EXPECT_TRUE(segments[0].b.isApprox(Eigen::Vector2f(30, 4), 1e-5f));
   EXPECT_FLOAT_EQ(segments[0].strength, 0.5f);
   EXPECT_FLOAT_EQ(segments[1].strength, 1.0f);
+  EXPECT_EQ(ReadSegments(Write("\xEF\xBB\xBF"
+                               "1 2 30 4\r\n"),
+                         kPinhole)
+                .size(),
+            1u);
 }
 
 TEST(ReadSegments, UndistortsTheEnds) {
@@ -42,8 +46,11 @@ TEST(ReadSegments, UndistortsTheEnds) {
 }
 
 TEST(ReadSegments, BadLinesAreNamedByNumber) {
-  for (const char* bad : {"1 2 3 4\n1 2 x 4\n", "1 2 3 4\n1 2 3\n", "1 2 3 4\n1 2 3 nan\n",
-                          "1 2 3 4\n1 2 3 9 -1\n"}) {
+  for (const char* bad : {"1 2 3 4\n1 2 x 4\n",
+                          "1 2 3 4\n1 2 3\n",
+                          "1 2 3 4\n1 2 3 nan\n",
+                          "1 2 3 4\n1 2 3 9 -1\n",
+                          "1 2 3 4\n1 2 3 1e300\n"}) {
     try {
       ReadSegments(Write(bad), kPinhole);
       FAIL() << "nothing thrown for " << bad;

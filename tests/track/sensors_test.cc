@@ -49,6 +49,14 @@ TEST_F(SensorFile, MissingFieldsAreAbsent) {
   EXPECT_EQ(readings[1].compass_deg, 90.0);
 }
 
+// As spreadsheets write them; names keep their own blanks.
+TEST_F(SensorFile, MarkOfByteOrderQuotesAndBlanks) {
+  const auto readings = Read("\xEF\xBB\xBF\"id\",\"lat_deg\"\r\n\"my photo 1\" ,\"48.1\"\r\n");
+  ASSERT_EQ(readings.size(), 1u);
+  EXPECT_EQ(readings[0].id, "my photo 1");
+  EXPECT_EQ(readings[0].latitude_deg, 48.1);
+}
+
 TEST_F(SensorFile, ErrorsNameLineAndColumn) {
   EXPECT_NE(ErrorOf("id,lat_degr\n").find("lat_deg"), std::string::npos);
   EXPECT_NE(ErrorOf("id,lat_deg\na,north\n").find("line 2: lat_deg"), std::string::npos);
