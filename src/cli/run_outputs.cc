@@ -55,6 +55,7 @@ void AddRunOutputOptions(CLI::App& command, RunOutputs& outputs, bool many) {
 void CheckRunOutputs(const RunOutputs& outputs, bool many) {
   CheckFileToWrite("--report", outputs.report);
   CheckFileToWrite("--map", outputs.map);
+  if (!outputs.map.empty()) CheckMapName(outputs.map);
   CheckFileToWrite("--energy-map", outputs.energy_map);
   if (!many) {
     CheckFileToWrite("--overlay", outputs.overlays);

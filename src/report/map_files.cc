@@ -180,6 +180,8 @@ const char* DriverOf(const fs::path& path) {
 
 }  // namespace
 
+void CheckMapName(const std::filesystem::path& path) { DriverOf(path); }
+
 void WriteMap(std::span<const ReportRun> runs, int epsg, const fs::path& path) {
   GDALAllRegister();
   const std::string driver_name = DriverOf(path);

@@ -17,6 +17,9 @@ namespace ridgeline {
 // @param epsg  Of all coordinates; 0: not known.
 void WriteMap(std::span<const ReportRun> runs, int epsg, const std::filesystem::path& path);
 
+// Throws InputError for a name that WriteMap() does not know by its extension.
+void CheckMapName(const std::filesystem::path& path);
+
 // Writes an energy map as GeoTIFF (float32, NaN: not admissible); pixel centres are its positions.
 // Throws InputError if the file cannot be written.
 void WriteEnergyMap(const ReportEnergyMap& map, int epsg, const std::filesystem::path& path);
