@@ -13,7 +13,7 @@ namespace ridgeline {
 // The best that a picture scores at a place where it cannot be from.
 struct BackgroundPose {
   PoseSpace space;  // around the place
-  ScoredPose best;
+  ScoredPose best;  // an offset in `space`
 };
 
 // Looks from `count` places among the buildings of the model, outside of the scorer's box (fewer
