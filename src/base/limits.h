@@ -51,6 +51,6 @@ inline constexpr std::int64_t kPackedPixels = 25'000'000;
 inline constexpr int kLeastPictureSide = 24;
 
 // Segments of a file of lines; a detector finds thousands.
-inline constexpr std::size_t kSegments = 100'000;
+inline constexpr std::size_t kSegments = 30'000;
 
 }  // namespace ridgeline::limits

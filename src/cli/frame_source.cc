@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <fstream>
 #include <opencv2/videoio.hpp>
 #include <system_error>
 #include <utility>
@@ -48,9 +49,27 @@ class PictureFiles final : public FrameSource {
   std::vector<Query> queries_;
 };
 
+// A playlist or a description of streams would have other files and addresses opened in its stead.
+bool IsText(const fs::path& path) {
+  std::array<char, 64> start{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(start.data(), start.size());
+  const auto end = start.begin() + file.gcount();
+  return std::none_of(start.begin(), end, [](char c) {
+    return (c >= 0 && c < ' ' && c != '\t' && c != '\n' && c != '\r') || c == 0x7f;
+  });
+}
+
+cv::VideoCapture Opened(const fs::path& path) {
+  if (IsText(path)) {
+    throw InputError(path.string(), "", "a text file", "a picture, folder or video");
+  }
+  return cv::VideoCapture(path.string());
+}
+
 class Video final : public FrameSource {
  public:
-  explicit Video(const fs::path& path) : capture_(path.string()) {
+  explicit Video(const fs::path& path) : capture_(Opened(path)) {
     if (!capture_.isOpened()) {
       throw InputError(
           path.string(), "", "nothing that can be played", "a picture, folder or video");

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "base/error.h"
 #include "city/crs.h"
@@ -55,6 +56,13 @@ class Ground {
   std::optional<HeightGrid> dtm_;
 };
 
+// Those whose id is a query's: films have ten readings for each frame, and each is projected.
+void KeepReadingsOf(const std::vector<Query>& queries, std::vector<SensorReading>& readings) {
+  std::set<std::string> ids;
+  for (const Query& query : queries) ids.insert(query.id);
+  std::erase_if(readings, [&](const SensorReading& reading) { return !ids.contains(reading.id); });
+}
+
 }  // namespace
 
 SensorOptions TakeSensorOptions(const std::string& sensors, std::vector<std::string>& set) {
@@ -85,6 +93,8 @@ void PriorsFromSensors(const std::string& sensors,
   if (options.attitude == "gyroscope") {
     readings = IntegrateGyroscope(std::move(readings), options, sensors);
   }
+  const bool only = dataset.queries.size() == 1 && readings.size() == 1;
+  if (!only) KeepReadingsOf(dataset.queries, readings);
   const Crs crs = CrsOf(dataset);
   // Once for the places, without heights; then with them.
   const auto priors_with = [&](const auto& height) {
@@ -113,7 +123,6 @@ void PriorsFromSensors(const std::string& sensors,
     if (priors[i] && options.height_source == "dtm") priors[i]->height_in_world.reset();
     by_id[readings[i].id] = priors[i];
   }
-  const bool only = dataset.queries.size() == 1 && readings.size() == 1;
   std::size_t used = 0;
   for (Query& query : dataset.queries) {
     const auto it = by_id.find(only ? readings.front().id : query.id);

@@ -16,6 +16,12 @@ bool IsUpsideDown(const Pose& pose) {
   return std::abs(angles.roll_deg) > 135.0 && std::abs(angles.pitch_deg) < 80.0;
 }
 
+// Angles in radians that were read as degrees are below 3.15 in each of omega, phi and kappa.
+bool IsNearlyNadir(const Pose& pose) {
+  constexpr double kMostDeg = 5.5;
+  return RotationDistanceDeg(pose.cam_from_world, CamFromWorld(OmegaPhiKappa{})) <= kMostDeg;
+}
+
 bool IsInDegrees(const Eigen::Vector3d& p) {
   return std::abs(p.x()) <= 180.0 && std::abs(p.y()) <= 90.0 && !p.head<2>().isZero();
 }
@@ -48,6 +54,7 @@ std::vector<std::string> DoubtsOf(const Dataset& dataset, const Eigen::Vector3d&
   Tally not_turned;
   Tally in_degrees;
   Tally in_one_place;
+  Tally nadir;
   const Pose* first = nullptr;
   std::size_t all = 0;
   for (const Query& query : dataset.queries) {
@@ -57,6 +64,7 @@ std::vector<std::string> DoubtsOf(const Dataset& dataset, const Eigen::Vector3d&
     if (first == nullptr) first = &pose;
     const Eigen::Vector3d place = pose.center_in_world - origin;
     if (IsUpsideDown(pose)) upside_down.Add(query);
+    if (IsNearlyNadir(pose)) nadir.Add(query);
     if (place.norm() < kSamePlaceM) at_origin.Add(query);
     if (RotationDistanceDeg(pose.cam_from_world, Eigen::Quaterniond::Identity()) == 0.0) {
       not_turned.Add(query);
@@ -84,6 +92,11 @@ std::vector<std::string> DoubtsOf(const Dataset& dataset, const Eigen::Vector3d&
     doubts.push_back(in_degrees.Text(all) +
                      " stand where no projected system has its numbers: are they degrees of "
                      "longitude and latitude, or relative to an origin (--origin)?");
+  }
+  if (all > 0 && nadir.count() == all) {
+    doubts.push_back("all " + std::to_string(all) +
+                     " poses look straight down with the picture's top to the north, to 5 degrees: "
+                     "are their angles in radians, where degrees are expected?");
   }
   if (all > 1 && in_one_place.count() == all && at_origin.count() == 0) {
     doubts.push_back("all " + std::to_string(all) + " poses stand in one place");

@@ -11,8 +11,8 @@ namespace ridgeline {
 
 // What is doubtful about the poses of an input of another program, a line each: pictures that are
 // upside down (another convention of the angles, or other camera axes), poses that were never
-// written (at the origin, or not turned), positions that look like degrees, and pictures that all
-// stand in one place. Empty: nothing.
+// written (at the origin, or not turned), positions that look like degrees, pictures that all stand in
+// one place, and pictures that all look down with north up (angles in radians). Empty: nothing.
 //
 // @param origin  What was added to the positions.
 std::vector<std::string> DoubtsOf(const Dataset& dataset, const Eigen::Vector3d& origin);

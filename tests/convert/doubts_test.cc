@@ -39,6 +39,12 @@ TEST_F(Doubts, LevelTiltedAndDownwardCamerasAreNone) {
               IsEmpty());
 }
 
+TEST_F(Doubts, AnglesInRadians) {
+  EXPECT_THAT(Of("a.jpg,654239,5412023,400,1.5708,-0.7,0.05\n"
+                 "b.jpg,654249,5412023,400,1.45,0.35,3.1\n"),
+              ElementsAre(HasSubstr("all 2 poses look straight down")));
+}
+
 // omega of -90 is a level camera on its head: what comes out where y and z axes are exchanged.
 TEST_F(Doubts, PicturesUpsideDown) {
   EXPECT_THAT(Of("a.jpg,654239,5412023,400,90,0,0\nb.jpg,654249,5412023,400,-90,12,0\n"
