@@ -55,7 +55,7 @@ bool IsText(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   file.read(start.data(), start.size());
   const auto end = start.begin() + file.gcount();
-  return std::none_of(start.begin(), end, [](char c) {
+  return file.gcount() > 0 && std::none_of(start.begin(), end, [](char c) {
     return (c >= 0 && c < ' ' && c != '\t' && c != '\n' && c != '\r') || c == 0x7f;
   });
 }

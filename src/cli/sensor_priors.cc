@@ -2,6 +2,7 @@
 #include "cli/sensor_priors.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <set>
@@ -56,10 +57,17 @@ class Ground {
   std::optional<HeightGrid> dtm_;
 };
 
-// Those whose id is a query's: films have ten readings for each frame, and each is projected.
+// Those whose id is a query's, and the first that the barometer can start from: each is projected,
+// and a film has many readings without a picture.
 void KeepReadingsOf(const std::vector<Query>& queries, std::vector<SensorReading>& readings) {
   std::set<std::string> ids;
   for (const Query& query : queries) ids.insert(query.id);
+  const auto start =
+      std::find_if(readings.begin(), readings.end(), [](const SensorReading& reading) {
+        return reading.pressure_hpa && reading.latitude_deg && reading.longitude_deg &&
+               reading.compass_deg;
+      });
+  if (start != readings.end()) ids.insert(start->id);
   std::erase_if(readings, [&](const SensorReading& reading) { return !ids.contains(reading.id); });
 }
 
