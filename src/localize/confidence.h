@@ -35,12 +35,12 @@ struct ConfidenceOptions {
   double doubtful_below = 0.6;
   // That an answer is within 2 m and 2 degrees, and that it is within 5 m and 5 degrees; for scores
   // that judge no buildings the confidence is the posterior mass.
-  OutcomeModel right{-6.5, 5.8, 0.29, 0.40, 1.19};
+  OutcomeModel right{-5.4, 4.5, 0.34, 0.38, 1.45};
   OutcomeModel near{-7.3, 6.8, 0.34, 0.44, 0.29};
   // Answers whose protection level is above this are withheld [m]; 0: none are.
   double alert_limit_m = 0.0;
-  // Widens the posterior, since samples of a picture are correlated.
-  double temperature = 1.15;
+  // Above 1 the posterior is wider than the log ratios say, below it narrower (docs/confidence.md).
+  double temperature = 0.6;
   // Least standard deviations, of what the map cannot resolve.
   double floor_m = 0.5;
   double floor_deg = 0.5;

@@ -104,4 +104,15 @@ std::optional<Pose> PoseSpace::PoseAt(const Offset& offset) const {
   return Pose{CamFromWorld(AnglesAt(offset)), *position};
 }
 
+double DistanceM(const PoseSpace::Offset& a, const PoseSpace::Offset& b) {
+  return Eigen::Vector3d(a.east_m - b.east_m, a.north_m - b.north_m, a.height_m - b.height_m).norm();
+}
+
+double AngleDeg(const PoseSpace::Offset& a, const PoseSpace::Offset& b) {
+  return Eigen::Vector3d(HeadingDifferenceDeg(a.heading_deg, b.heading_deg),
+                         a.pitch_deg - b.pitch_deg,
+                         a.roll_deg - b.roll_deg)
+      .norm();
+}
+
 }  // namespace ridgeline

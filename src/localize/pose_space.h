@@ -101,4 +101,8 @@ class PoseSpace {
   ViewAngles angles_;
 };
 
+// Of two offsets: the distance of the places [m], and the norm of the differences of the angles [deg].
+double DistanceM(const PoseSpace::Offset& a, const PoseSpace::Offset& b);
+double AngleDeg(const PoseSpace::Offset& a, const PoseSpace::Offset& b);
+
 }  // namespace ridgeline

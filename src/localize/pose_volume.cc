@@ -138,12 +138,8 @@ std::vector<ScoredPose> FindModes(const PoseVolume& volume,
     if (static_cast<int>(modes.size()) == options.modes) break;
     const PoseSpace::Offset o = volume.OffsetOf(index, space.center_angles());
     const bool is_near = std::any_of(modes.begin(), modes.end(), [&](const ScoredPose& mode) {
-      const PoseSpace::Offset& m = mode.offset;
-      const double distance =
-          Eigen::Vector3d(o.east_m - m.east_m, o.north_m - m.north_m, o.height_m - m.height_m)
-              .norm();
-      return distance < separation_m &&
-             std::abs(HeadingDifferenceDeg(o.heading_deg, m.heading_deg)) <
+      return DistanceM(o, mode.offset) < separation_m &&
+             std::abs(HeadingDifferenceDeg(o.heading_deg, mode.offset.heading_deg)) <
                  options.mode_separation_deg;
     });
     if (!is_near) modes.push_back({o, volume.log_ratios[index]});

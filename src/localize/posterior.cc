@@ -16,17 +16,6 @@ struct Sample {
   double log_ratio = 0.0;
 };
 
-double DistanceM(const PoseSpace::Offset& a, const PoseSpace::Offset& b) {
-  return Eigen::Vector3d(a.east_m - b.east_m, a.north_m - b.north_m, a.height_m - b.height_m).norm();
-}
-
-double AngleDeg(const PoseSpace::Offset& a, const PoseSpace::Offset& b) {
-  return Eigen::Vector3d(HeadingDifferenceDeg(a.heading_deg, b.heading_deg),
-                         a.pitch_deg - b.pitch_deg,
-                         a.roll_deg - b.roll_deg)
-      .norm();
-}
-
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 

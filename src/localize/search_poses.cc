@@ -48,6 +48,21 @@ void SortBestFirst(std::vector<ScoredPose>& modes) {
   });
 }
 
+// Modes, best first, that were refined to one peak are one, to the last steps of the refinement.
+void JoinModes(std::vector<ScoredPose>& modes) {
+  constexpr double kSameM = 0.3;
+  constexpr double kSameDeg = 0.3;
+  std::vector<ScoredPose> apart;
+  for (const ScoredPose& mode : modes) {
+    const bool is_known = std::any_of(apart.begin(), apart.end(), [&](const ScoredPose& better) {
+      return DistanceM(mode.offset, better.offset) <= kSameM &&
+             AngleDeg(mode.offset, better.offset) <= kSameDeg;
+    });
+    if (!is_known) apart.push_back(mode);
+  }
+  modes = std::move(apart);
+}
+
 std::vector<Tilt> TiltsOf(const PoseScorer& scorer,
                           const PictureEvidence& picture,
                           const MapOptions& options) {
@@ -193,11 +208,13 @@ std::uint64_t RefineModes(const PoseScorer& scorer, int threads, SearchedPoses& 
     refine(first, count, {0.5 * found.spacing_m, 0.5, 0.3});
   });
   SortBestFirst(modes);
+  JoinModes(modes);
   const std::size_t better = (modes.size() + 2) / 3;
   RefineWhileHopeful(modes, better, [&](std::size_t first, std::size_t count) {
     refine(first, count, {0.25, 0.25, 0.06});
   });
   SortBestFirst(modes);
+  JoinModes(modes);
   return total + RefineBackground(scorer, threads, found);
 }
 
