@@ -39,6 +39,25 @@ void Forget(const fs::path& temporary) {
   pending.paths.erase(temporary);
 }
 
+void Drop(const fs::path& temporary) {
+  std::error_code ignored;
+  fs::remove_all(temporary, ignored);
+  Forget(temporary);
+}
+
+// A finished temporary of a file.
+fs::path WrittenBeside(const fs::path& path, std::string_view content) {
+  const fs::path temporary = TemporaryBeside(path);
+  std::ofstream stream(temporary, std::ios::binary);
+  stream.write(content.data(), static_cast<std::streamsize>(content.size()));
+  stream.close();
+  if (!stream) {
+    Drop(temporary);
+    throw InputError(path.string(), "", "a failed write", "space and permission to write");
+  }
+  return temporary;
+}
+
 }  // namespace
 
 fs::path TemporaryBeside(const fs::path& path) {
@@ -81,19 +100,18 @@ void RemoveTemporaries() noexcept {
 }
 
 void WriteFileAtomically(const fs::path& path, std::string_view content) {
-  const fs::path temporary = TemporaryBeside(path);
-  {
-    std::ofstream stream(temporary, std::ios::binary);
-    stream.write(content.data(), static_cast<std::streamsize>(content.size()));
-    stream.flush();
-    if (!stream) {
-      std::error_code ignored;
-      fs::remove(temporary, ignored);
-      Forget(temporary);
-      throw InputError(path.string(), "", "a failed write", "space and permission to write");
-    }
+  CommitFile(WrittenBeside(path, content), path);
+}
+
+void WriteFilesAtomically(const std::vector<std::pair<fs::path, std::string>>& files) {
+  std::vector<fs::path> temporaries;
+  try {
+    for (const auto& [path, content] : files) temporaries.push_back(WrittenBeside(path, content));
+  } catch (...) {
+    for (const fs::path& temporary : temporaries) Drop(temporary);
+    throw;
   }
-  CommitFile(temporary, path);
+  for (std::size_t i = 0; i < files.size(); ++i) CommitFile(temporaries[i], files[i].first);
 }
 
 std::string ReadFile(const fs::path& path) {

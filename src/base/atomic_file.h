@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace ridgeline {
 
@@ -20,6 +22,11 @@ void RemoveTemporaries() noexcept;
 
 // Writes a whole file or none: temporary file, flush, rename. Throws InputError on failure.
 void WriteFileAtomically(const std::filesystem::path& path, std::string_view content);
+
+// The same for files that belong together, as path and content: none is put in its place before all
+// are written.
+void WriteFilesAtomically(
+    const std::vector<std::pair<std::filesystem::path, std::string>>& files);
 
 // Whole content of a file. Throws InputError if it cannot be read.
 std::string ReadFile(const std::filesystem::path& path);

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "cli/bench_score_only.h"
 #include "cli/bench_table.h"
+#include "cli/command_text.h"
 #include "cli/idle_options.h"
 #include "cli/out_folder.h"
 #include "cli/progress.h"
@@ -184,16 +185,18 @@ BenchArguments BenchArgumentsFrom(const Provenance& provenance) {
 }
 
 std::string CommandOf(const BenchArguments& arguments) {
-  std::string command = "ridgeline bench " + arguments.dataset;
-  if (!arguments.config.config.empty()) command += " --config " + arguments.config.config;
-  for (const std::string& assignment : arguments.config.set) command += " --set " + assignment;
-  if (!arguments.protocol.empty()) command += " --protocol " + arguments.protocol;
-  if (!arguments.world.empty()) command += " --world " + arguments.world;
-  if (!arguments.perturb.empty()) command += " --perturb " + arguments.perturb;
-  if (!arguments.sensors.empty()) command += " --sensors " + arguments.sensors;
-  command += ChoiceText(arguments.work);
-  return command + " --seed " + std::to_string(arguments.seed) + " --seeds " +
-         std::to_string(arguments.seeds);
+  CommandText command("ridgeline bench");
+  command.Word(arguments.dataset)
+      .Option("--config", arguments.config.config)
+      .Option("--set", arguments.config.set)
+      .Option("--protocol", arguments.protocol)
+      .Option("--world", arguments.world)
+      .Option("--perturb", arguments.perturb)
+      .Option("--sensors", arguments.sensors);
+  AddChoice(arguments.work, command);
+  return command.Option("--seed", std::to_string(arguments.seed))
+      .Option("--seeds", std::to_string(arguments.seeds))
+      .text();
 }
 
 int RunBenchCommand(const BenchArguments& arguments, const Context& context) {

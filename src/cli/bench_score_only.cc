@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "city/crs.h"
 #include "cli/bench_table.h"
+#include "cli/command_text.h"
 #include "cli/out_folder.h"
 #include "cli/progress.h"
 #include "cli/version.h"
@@ -147,11 +148,12 @@ Provenance ProvenanceOfPoses(const BenchArguments& arguments,
 }
 
 std::string CommandOfPoses(const BenchArguments& arguments) {
-  std::string command =
-      "ridgeline bench " + arguments.dataset + " --score-only " + arguments.score_only;
-  if (!arguments.config.config.empty()) command += " --config " + arguments.config.config;
-  for (const std::string& assignment : arguments.config.set) command += " --set " + assignment;
-  return command;
+  return CommandText("ridgeline bench")
+      .Word(arguments.dataset)
+      .Option("--score-only", arguments.score_only)
+      .Option("--config", arguments.config.config)
+      .Option("--set", arguments.config.set)
+      .text();
 }
 
 }  // namespace

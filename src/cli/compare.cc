@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "city/crs.h"
 #include "cli/command.h"
+#include "cli/command_text.h"
 #include "cli/out_folder.h"
 #include "cli/version.h"
 #include "eval/comparison_files.h"
@@ -132,10 +133,9 @@ void MarkTruths(const std::optional<Dataset>& dataset, std::vector<Results>& all
 }
 
 std::string CommandOf(const CompareArguments& arguments) {
-  std::string command = "ridgeline compare";
-  for (const std::string& path : arguments.results) command += " " + path;
-  for (const std::string& name : arguments.names) command += " --name " + name;
-  return command;
+  CommandText command("ridgeline compare");
+  for (const std::string& path : arguments.results) command.Word(path);
+  return command.Option("--name", arguments.names).text();
 }
 
 void WritePage(const CompareArguments& arguments,

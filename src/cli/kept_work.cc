@@ -35,11 +35,8 @@ void CheckKeeping(const KeptWork& work, const std::string& out, const std::strin
   }
 }
 
-std::string ChoiceText(const KeptWork& work) {
-  std::string text;
-  for (const std::string& query : work.queries) text += " --query " + query;
-  for (const std::string& set : work.sets) text += " --set-name " + set;
-  return text;
+void AddChoice(const KeptWork& work, CommandText& command) {
+  command.Option("--query", work.queries).Option("--set-name", work.sets);
 }
 
 }  // namespace ridgeline

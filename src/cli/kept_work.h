@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/command_text.h"
+
 namespace ridgeline {
 
 // Which part of a long work is done, and whether it goes on with what is there: bench and study.
@@ -22,7 +24,7 @@ void AddKeptWorkOptions(CLI::App& command, const std::string& pieces, KeptWork& 
 // Throws InputError where --resume or --shard has no folder to keep the results in.
 void CheckKeeping(const KeptWork& work, const std::string& out, const std::string& pieces);
 
-// The choice as options of a command line, "" for all.
-std::string ChoiceText(const KeptWork& work);
+// The choice as options of a command; none for all.
+void AddChoice(const KeptWork& work, CommandText& command);
 
 }  // namespace ridgeline

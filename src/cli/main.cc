@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <opencv2/core.hpp>
@@ -105,6 +106,8 @@ int main(int argc, char** argv) {
     return exit_code;
   } catch (const InputError& e) {
     return Fail(context, e.what(), kExitBadInput);
+  } catch (const std::filesystem::filesystem_error& e) {
+    return Fail(context, e.path1().string() + ": " + e.code().message(), kExitBadInput);
   } catch (const std::bad_alloc&) {
     return Fail(context, kNoMemory, kExitBadInput);
   } catch (const cv::Exception& e) {

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "camera/local_frame.h"
 #include "cli/command.h"
+#include "cli/command_text.h"
 #include "cli/film.h"
 #include "cli/out_folder.h"
 #include "cli/progress.h"
@@ -298,21 +299,19 @@ std::string NameOf(const SequenceArguments& sequence) {
 }
 
 std::string CommandOf(const SkylineArguments& arguments) {
-  std::string command = "ridgeline skyline";
-  const auto add = [&](const char* option, const std::string& value) {
-    if (!value.empty()) command += std::string(" ") + option + " " + value;
-  };
   const SequenceArguments& sequence = arguments.sequence;
-  add("--dataset", sequence.dataset);
-  add("--frames", sequence.frames);
-  for (const std::string& model : sequence.model) add("--model", model);
-  add("--crs", sequence.crs);
-  add("--dtm", sequence.dtm);
-  add("--camera", sequence.camera);
-  add("--sensors", sequence.sensors);
-  add("--config", arguments.config.config);
-  for (const std::string& assignment : arguments.config.set) add("--set", assignment);
-  return command + " --out " + arguments.out;
+  return CommandText("ridgeline skyline")
+      .Option("--dataset", sequence.dataset)
+      .Option("--frames", sequence.frames)
+      .Option("--model", sequence.model)
+      .Option("--crs", sequence.crs)
+      .Option("--dtm", sequence.dtm)
+      .Option("--camera", sequence.camera)
+      .Option("--sensors", sequence.sensors)
+      .Option("--config", arguments.config.config)
+      .Option("--set", arguments.config.set)
+      .Option("--out", arguments.out)
+      .text();
 }
 
 // Of a file that is to be written; empty for none.

@@ -8,6 +8,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "cli/command_text.h"
 #include "cli/out_folder.h"
 #include "cli/progress.h"
 #include "cli/study_output.h"
@@ -27,19 +28,20 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 std::string CommandOf(const StudyArguments& arguments) {
-  std::string command = "ridgeline study " + arguments.dataset;
-  for (const std::string& score : arguments.scores) command += " --score " + score;
-  command += ChoiceText(arguments.work);
-  for (const std::string& name : arguments.vary) command += " --vary " + name;
-  if (arguments.explore) command += " --explore";
-  if (!arguments.config.config.empty()) command += " --config " + arguments.config.config;
-  for (const std::string& assignment : arguments.config.set) command += " --set " + assignment;
-  if (!arguments.protocol.empty()) command += " --protocol " + arguments.protocol;
-  if (!arguments.perturb.empty()) command += " --perturb " + arguments.perturb;
-  command += " --seed " + std::to_string(arguments.seed);
+  CommandText command("ridgeline study");
+  command.Word(arguments.dataset).Option("--score", arguments.scores);
+  AddChoice(arguments.work, command);
+  command.Option("--vary", arguments.vary);
+  if (arguments.explore) command.Word("--explore");
   std::string classes;
   for (const int c : arguments.classes) classes += (classes.empty() ? "" : ",") + std::to_string(c);
-  return command + " --classes " + classes;
+  return command.Option("--config", arguments.config.config)
+      .Option("--set", arguments.config.set)
+      .Option("--protocol", arguments.protocol)
+      .Option("--perturb", arguments.perturb)
+      .Option("--seed", std::to_string(arguments.seed))
+      .Option("--classes", classes)
+      .text();
 }
 
 std::vector<Variation> VariationsOf(const std::vector<std::string>& texts) {

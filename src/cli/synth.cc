@@ -12,6 +12,7 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "cli/command.h"
+#include "cli/command_text.h"
 #include "cli/progress.h"
 #include "convert/egeniouss.h"
 #include "input/dataset.h"
@@ -110,6 +111,30 @@ void RefuseBlocksBesideBuildings(const std::vector<std::string>& assignments) {
   }
 }
 
+// What to try with what was made; empty: nothing.
+std::string NextCommand(const SynthArguments& arguments, bool has_pictures) {
+  const fs::path out = arguments.out;
+  const std::string dataset = (out / "dataset.json").string();
+  if (!arguments.layout.empty()) {
+    return CommandText("ridgeline convert").Word(out.string()).Option("--out", "DATASET.json").text();
+  }
+  CommandText command("ridgeline bench");
+  if (arguments.walk_frames > 0) {
+    command = CommandText("ridgeline skyline")
+                  .Option("--dataset", dataset)
+                  .Option("--sensors", (out / "sensors.csv").string());
+  } else if (arguments.Frames() > 0) {
+    command = CommandText("ridgeline track")
+                  .Word(dataset)
+                  .Option("--odometry", (out / "odometry.csv").string());
+  } else if (has_pictures) {
+    command.Word(dataset);
+  } else {
+    return "";
+  }
+  return command.Option("--out", "DIR").text();
+}
+
 int RunSynth(SynthArguments& arguments, const Context& context) {
   TownDatasetOptions& options = arguments.options;
   WalkOptions walk = arguments.Walk();
@@ -152,7 +177,6 @@ int RunSynth(SynthArguments& arguments, const Context& context) {
   if (is_egeniouss) temporary = InEgenioussLayout(temporary, options.town.seed, out);
   Commit(temporary, out);
 
-  const fs::path dataset = fs::path(arguments.out) / "dataset.json";
   if (context.json) {
     context.Print(nlohmann::ordered_json{{"folder", arguments.out},
                                          {"buildings", summary.buildings},
@@ -163,20 +187,8 @@ int RunSynth(SynthArguments& arguments, const Context& context) {
   }
   context.Print("Town of " + std::to_string(summary.buildings) + " buildings and parts, " +
                 std::to_string(summary.pictures) + " pictures, in " + arguments.out);
-  if (is_egeniouss) {
-    context.Print("Next: ridgeline convert " + arguments.out + " --out DATASET.json");
-  } else if (is_walk) {
-    const fs::path sensors = fs::path(arguments.out) / "sensors.csv";
-    if (arguments.walk_frames == 0) {
-      context.Print("Next: ridgeline track " + dataset.string() + " --odometry " +
-                    (fs::path(arguments.out) / "odometry.csv").string() + " --out DIR");
-      return kExitOk;
-    }
-    context.Print("Next: ridgeline skyline --dataset " + dataset.string() + " --sensors " +
-                  sensors.string() + " --out DIR");
-  } else if (summary.pictures > 0) {
-    context.Print("Next: ridgeline bench " + dataset.string() + " --out DIR");
-  }
+  const std::string next = NextCommand(arguments, summary.pictures > 0);
+  if (!next.empty()) context.Print("Next: " + next);
   return kExitOk;
 }
 

@@ -145,24 +145,25 @@ std::size_t WriteColmapModel(const Dataset& dataset,
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw InputError(folder.string(), "", error.message(), "a folder");
-  WriteFileAtomically(folder / "cameras.txt",
-                      "# Camera list with one line of data per camera:\n"
-                      "#   CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n"
-                      "# Number of cameras: " +
-                          std::to_string(cameras.size()) + "\n" + camera_lines);
-  WriteFileAtomically(
-      folder / "points3D.txt",
+  const std::string cameras_text =
+      "# Camera list with one line of data per camera:\n"
+      "#   CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n"
+      "# Number of cameras: " +
+      std::to_string(cameras.size()) + "\n" + camera_lines;
+  const std::string points_text =
       "# 3D point list with one line of data per point:\n"
       "#   POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)\n"
-      "# Number of points: 0\n");
-  WriteFileAtomically(folder / "images.txt",
-                      "# Image list with two lines of data per image:\n"
-                      "#   IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME\n"
-                      "#   POINTS2D[] as (X, Y, POINT3D_ID)\n"
-                      "# Number of images: " +
-                          std::to_string(count) + "\n# origin " +
-                          Words({origin.x(), origin.y(), origin.z()}) + " east north height" +
-                          (dataset.crs.empty() ? "" : " " + dataset.crs) + "\n" + images);
+      "# Number of points: 0\n";
+  const std::string images_text =
+      "# Image list with two lines of data per image:\n"
+      "#   IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME\n"
+      "#   POINTS2D[] as (X, Y, POINT3D_ID)\n"
+      "# Number of images: " +
+      std::to_string(count) + "\n# origin " + Words({origin.x(), origin.y(), origin.z()}) +
+      " east north height" + (dataset.crs.empty() ? "" : " " + dataset.crs) + "\n" + images;
+  WriteFilesAtomically({{folder / "cameras.txt", cameras_text},
+                        {folder / "points3D.txt", points_text},
+                        {folder / "images.txt", images_text}});
   return count;
 }
 

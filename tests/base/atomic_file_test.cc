@@ -31,6 +31,17 @@ class AtomicFile : public testing::Test {
   fs::path folder_;
 };
 
+TEST_F(AtomicFile, FilesThatBelongTogetherAreThereTogetherOrNotAtAll) {
+  WriteFileAtomically(folder_ / "a.txt", "old");
+  EXPECT_THROW(WriteFilesAtomically({{folder_ / "a.txt", "new"}, {folder_ / "none/b.txt", "new"}}),
+               InputError);
+  EXPECT_EQ(ReadFile(folder_ / "a.txt"), "old");
+  EXPECT_EQ(CountFiles(), 1);
+  WriteFilesAtomically({{folder_ / "a.txt", "new"}, {folder_ / "b.txt", "other"}});
+  EXPECT_EQ(ReadFile(folder_ / "a.txt") + ReadFile(folder_ / "b.txt"), "newother");
+  EXPECT_EQ(CountFiles(), 2);
+}
+
 TEST_F(AtomicFile, ReplacesTheWholeContentAndLeavesNothingElse) {
   const fs::path path = folder_ / "pose.json";
   WriteFileAtomically(path, "a long first content");

@@ -114,6 +114,13 @@ TEST_F(LocalizerOnAStreet, FindsThePose) {
   for (std::size_t i = 1; i < found.modes.size(); ++i) {
     EXPECT_GE(found.modes[i].energy, found.energy);
   }
+  // No peak twice.
+  for (std::size_t i = 1; i < found.modes.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const PoseError apart = ErrorOf(found.modes[i].pose, found.modes[k].pose);
+      EXPECT_TRUE(apart.translation_m > 0.3 || apart.rotation_deg > 0.2) << i << " and " << k;
+    }
+  }
 }
 
 TEST_F(LocalizerOnAStreet, PriorsWithWrongTiltsAreNoObstacle) {
