@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -49,6 +50,11 @@ inline constexpr std::int64_t kPicturePixels = 200'000'000;
 inline constexpr std::int64_t kPixelsPerByte = 50;
 inline constexpr std::int64_t kPackedPixels = 25'000'000;
 inline constexpr int kLeastPictureSide = 24;
+// Pixels that a picture in a file of so many bytes may have.
+constexpr std::int64_t PicturePixels(std::size_t bytes) {
+  return std::min(kPicturePixels,
+                  std::max(kPackedPixels, kPixelsPerByte * static_cast<std::int64_t>(bytes)));
+}
 
 // Segments of a file of lines; a detector finds thousands.
 inline constexpr std::size_t kSegments = 30'000;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "camera/decode_file.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <opencv2/imgcodecs.hpp>
 #include <string_view>
@@ -24,12 +23,9 @@ std::uint32_t BigEndian(std::string_view bytes) {
 void CheckSize(std::string_view png, const std::string& file, const std::string& expected) {
   constexpr std::size_t kWidthAt = 16;  // in IHDR, which comes first
   if (!png.starts_with("\x89PNG") || png.size() < kWidthAt + 8) return;
-  const std::uint64_t width = BigEndian(png.substr(kWidthAt, 4));
-  const std::uint64_t height = BigEndian(png.substr(kWidthAt + 4, 4));
-  const auto packed = static_cast<std::uint64_t>(limits::kPixelsPerByte) * png.size();
-  const std::uint64_t most =
-      std::min<std::uint64_t>(limits::kPicturePixels,
-                              std::max<std::uint64_t>(limits::kPackedPixels, packed));
+  const std::int64_t width = BigEndian(png.substr(kWidthAt, 4));
+  const std::int64_t height = BigEndian(png.substr(kWidthAt + 4, 4));
+  const std::int64_t most = limits::PicturePixels(png.size());
   if (width <= most && height <= most && width * height <= most) return;
   throw InputError(file,
                    "limit",

@@ -96,9 +96,7 @@ void CheckSize(const std::string& file, const cv::Size& size, std::size_t bytes)
         SizeText(size.width, size.height),
         "a picture of " + std::to_string(limits::kLeastPictureSide) + " px and more on each side");
   }
-  const std::int64_t packed =
-      std::max(limits::kPackedPixels, limits::kPixelsPerByte * static_cast<std::int64_t>(bytes));
-  const std::int64_t most = std::min(limits::kPicturePixels, packed);
+  const std::int64_t most = limits::PicturePixels(bytes);
   if (std::int64_t{size.width} * size.height <= most) return;
   throw InputError(file,
                    "limit",

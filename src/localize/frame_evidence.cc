@@ -18,8 +18,6 @@
 namespace ridgeline {
 namespace {
 
-// Three lines in general position fix a pose; one more tells whether it is right.
-constexpr std::size_t kMinFrameLines = 4;
 // Directions that share one view.
 constexpr double kHeadingCellDeg = 20.0;
 // A camera below this above the terrain is in the ground.
@@ -61,12 +59,8 @@ struct FrameEvidence::Impl {
         score(MakeScore({picture, from.scene(), from.options().score})),
         surface_step_rad(from.options().score.evidence.surface_step_deg * std::numbers::pi /
                          180.0) {
-    if (picture.segments().size() < kMinFrameLines) {
-      unusable = "the picture shows " + std::to_string(picture.segments().size()) +
-                 " straight lines; " + std::to_string(kMinFrameLines) + " are the least";
-    } else {
-      unusable = score->unusable();
-    }
+    unusable = TooFewLines(picture.segments().size());
+    if (unusable.empty()) unusable = score->unusable();
   }
 
   // A view from the middle of the places for all of their orientations.

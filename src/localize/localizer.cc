@@ -37,9 +37,6 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-// Fewer lines cannot fix a pose: three lines in general position are the least.
-constexpr std::size_t kMinLines = 4;
-
 void CheckInput(const LocalizationInput& input, const CityModel& model) {
   if (input.picture.cols != input.camera.width || input.picture.rows != input.camera.height) {
     throw InputError(
@@ -70,11 +67,6 @@ Localization Abstained(Localization result, LocalizationStatus status, std::stri
   result.reason = std::move(reason);
   result.pose.reset();  // a smaller box may have had one
   return result;
-}
-
-std::string TooFewLines(std::size_t lines) {
-  return "the picture shows " + std::to_string(lines) + " straight lines; " +
-         std::to_string(kMinLines) + " are the least";
 }
 
 std::string NoVisibleModel(const Score& score) {
@@ -351,8 +343,8 @@ Localization Localizer::Localize(const LocalizationInput& input,
                                 input.lines);
   const StageTime looked{"picture", watch.Lap()};
   Localization result;
-  if (picture.segments().size() < kMinLines) {
-    result = Abstained({}, LocalizationStatus::kTooFewLines, TooFewLines(picture.segments().size()));
+  if (std::string reason = TooFewLines(picture.segments().size()); !reason.empty()) {
+    result = Abstained({}, LocalizationStatus::kTooFewLines, std::move(reason));
   } else {
     result = WithBestFocal(picture, input.focal_lengths, [&](const PictureEvidence& evidence) {
       return impl_->LocalizeWith(evidence, input.prior, ranges, seed, threads);

@@ -166,6 +166,13 @@ SearchedPoses SearchMap(const PoseScorer& scorer,
 
 }  // namespace
 
+std::string TooFewLines(std::size_t lines) {
+  constexpr std::size_t kLeast = 4;
+  if (lines >= kLeast) return "";
+  return "the picture shows " + std::to_string(lines) + " straight lines; " +
+         std::to_string(kLeast) + " are the least";
+}
+
 PoseVolume MapPoses(const PoseScorer& scorer,
                     const PictureEvidence& picture,
                     const MapOptions& options,

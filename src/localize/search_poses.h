@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "localize/background.h"
@@ -26,6 +28,10 @@ struct SearchedPoses {
   std::optional<double> above_background;
 };
 
+// Three lines in general position fix a pose; one more tells whether it is right. Why a picture with
+// fewer is not searched, in words; empty: it is.
+std::string TooFewLines(std::size_t lines);
+
 // The dense map, or the sampler, that the options name. The map looks under the tilts that the
 // picture's vertical lines suggest.
 SearchedPoses SearchPoses(const PoseScorer& scorer,
@@ -41,7 +47,8 @@ PoseVolume MapPoses(const PoseScorer& scorer,
                     int threads);
 
 // Refines the modes on the exact score, all a little and the better ones to the end, and sorts
-// them, best first; and the best of the background, to which they are then compared. Returns the number of energies computed.
+// them, best first; and the best of the background, to which they are then compared. Returns the
+// number of energies computed.
 std::uint64_t RefineModes(const PoseScorer& scorer, int threads, SearchedPoses& found);
 
 }  // namespace ridgeline
