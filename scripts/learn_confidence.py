@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Learns the outcome models of the confidence (docs/confidence.md) from what `bench` writes.
 
-    scripts/learn_confidence.py RUNS... [--judge RUNS...] [--from OPTIONS.json]
+    scripts/learn_confidence.py RUNS... [--half RUNS...] [--judge RUNS...] [--from OPTIONS.json]
 
 RUNS are evidence.csv files or folders that hold some, at any depth. The models are a logistic
-function of the evidence times a power of the posterior mass; --judge names runs that nothing is learned from:
-how the learned confidence does on them is printed, with exact binomial bounds. --from takes weights
-that were learned from other runs (`ridgeline options`): the new ones stay near them where the RUNS
-are few. Needs Debian's python3-numpy and python3-scipy.
+function of the evidence times a power of the posterior mass. Runs of --half count half; --judge
+names runs that nothing is learned from: how the learned confidence does on them is printed, with
+exact binomial bounds. --from takes weights that were learned from other runs (`ridgeline options`):
+the new ones stay near them where the RUNS are few. Needs Debian's python3-numpy and python3-scipy.
 """
 
 import argparse
@@ -24,10 +24,11 @@ RIDGE = 0.02
 NAMES = ["offset", "explained", "above_background", "information", "mass_power"]
 # How far weights learned from a few hundred runs may be off: one standard deviation (of the power:
 # of its logarithm).
-SPREAD = np.array([1.5, 1.0, 0.05, 0.1, 0.25])
+SPREAD = np.array([1.5, 1.0, 1.0, 0.1, 0.25])
+# As in src/localize/confidence.cc.
 INFORMATION_NAT = 15.0
-# Of runs whose background is not known, and the bounds of the features (src/localize/confidence.cc).
-UNKNOWN_NAT = 10.0
+LEAST_INFORMATION_NAT = 5.0
+UNKNOWN_SHARE = 0.6
 
 
 def elsewhere(folder):
@@ -53,11 +54,12 @@ def read(paths):
 def features(rows):
     """As OutcomeModel::Probability (src/localize/confidence.cc): the columns of the logistic part,
     and the posterior mass."""
-    number = lambda text: float(text) if text else UNKNOWN_NAT
     explained = np.clip([float(r["explained"]) for r in rows], -0.5, 1.5)
-    background = np.clip([number(r["above_background_nat"]) for r in rows], -10.0, 25.0)
     mass = np.clip([float(r["posterior_mass"]) for r in rows], 1e-6, 1.0)
     information = np.array([float(r["information_nat"]) for r in rows])
+    tellable = np.maximum(information, LEAST_INFORMATION_NAT)
+    background = np.clip([float(r["above_background_nat"]) / most if r["above_background_nat"]
+                          else UNKNOWN_SHARE for r, most in zip(rows, tellable)], -0.5, 1.2)
     missing = np.minimum(0.0, information - INFORMATION_NAT)
     return np.stack([np.ones(len(rows)), explained, background, missing], axis=1), mass
 
@@ -74,11 +76,12 @@ def probability(b, x, mass):
     return mass ** np.exp(b[4]) / (1 + np.exp(-np.clip(x @ b[:4], -30, 30)))
 
 
-def fit(x, mass, y, earlier=None):
-    """Highest likelihood with a small ridge, the power drawn to 1; or near earlier weights."""
+def fit(x, mass, y, count, earlier=None):
+    """Highest likelihood with a small ridge, the power drawn to 1; or near earlier weights. `count`:
+    how often each run is counted."""
     def loss(b):
         p = np.clip(probability(b, x, mass), 1e-6, 1 - 1e-6)
-        likelihood = (y * np.log(p) + (1 - y) * np.log(1 - p)).sum()
+        likelihood = (count * (y * np.log(p) + (1 - y) * np.log(1 - p))).sum()
         if earlier is not None:
             return -likelihood + 0.5 * (((b - earlier) / SPREAD) ** 2).sum()
         return -likelihood + RIDGE * (b[1:4] ** 2).sum() + 0.5 * b[4] ** 2
@@ -121,11 +124,14 @@ def judge(rows, b_right):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("runs", nargs="+")
+    parser.add_argument("--half", nargs="+", default=[])
     parser.add_argument("--judge", nargs="+", default=[])
     parser.add_argument("--from", dest="earlier", metavar="OPTIONS.json")
     arguments = parser.parse_args()
-    rows = read(arguments.runs)
-    models = [(name, fit(*features(rows), outcome, earlier_weights(arguments.earlier, name)))
+    whole, half = read(arguments.runs), read(arguments.half)
+    rows = whole + half
+    count = np.array([1.0] * len(whole) + [0.5] * len(half))
+    models = [(name, fit(*features(rows), outcome, count, earlier_weights(arguments.earlier, name)))
               for name, outcome in zip(["right", "near"], outcomes(rows))]
     for name, b in models:
         print(name, dict(zip(NAMES, np.round([*b[:4], np.exp(b[4])], 3).tolist())))

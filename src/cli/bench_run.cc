@@ -9,11 +9,11 @@
 #include "base/error.h"
 #include "cli/bench_score_only.h"
 #include "cli/bench_table.h"
-#include "cli/command_text.h"
 #include "cli/idle_options.h"
 #include "cli/out_folder.h"
 #include "cli/progress.h"
 #include "cli/sensor_priors.h"
+#include "cli/shell_command.h"
 #include "cli/version.h"
 #include "eval/run_folder.h"
 
@@ -185,7 +185,7 @@ BenchArguments BenchArgumentsFrom(const Provenance& provenance) {
 }
 
 std::string CommandOf(const BenchArguments& arguments) {
-  CommandText command("ridgeline bench");
+  ShellCommand command("ridgeline bench");
   command.Word(arguments.dataset)
       .Option("--config", arguments.config.config)
       .Option("--set", arguments.config.set)

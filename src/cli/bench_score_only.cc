@@ -11,9 +11,9 @@
 #include "base/error.h"
 #include "city/crs.h"
 #include "cli/bench_table.h"
-#include "cli/command_text.h"
 #include "cli/out_folder.h"
 #include "cli/progress.h"
+#include "cli/shell_command.h"
 #include "cli/version.h"
 #include "eval/bench_files.h"
 #include "eval/judge_pose.h"
@@ -148,7 +148,7 @@ Provenance ProvenanceOfPoses(const BenchArguments& arguments,
 }
 
 std::string CommandOfPoses(const BenchArguments& arguments) {
-  return CommandText("ridgeline bench")
+  return ShellCommand("ridgeline bench")
       .Word(arguments.dataset)
       .Option("--score-only", arguments.score_only)
       .Option("--config", arguments.config.config)

@@ -13,8 +13,8 @@
 #include "base/error.h"
 #include "city/crs.h"
 #include "cli/command.h"
-#include "cli/command_text.h"
 #include "cli/out_folder.h"
+#include "cli/shell_command.h"
 #include "cli/version.h"
 #include "eval/comparison_files.h"
 #include "eval/provenance.h"
@@ -133,7 +133,7 @@ void MarkTruths(const std::optional<Dataset>& dataset, std::vector<Results>& all
 }
 
 std::string CommandOf(const CompareArguments& arguments) {
-  CommandText command("ridgeline compare");
+  ShellCommand command("ridgeline compare");
   for (const std::string& path : arguments.results) command.Word(path);
   return command.Option("--name", arguments.names).text();
 }

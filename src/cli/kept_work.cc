@@ -35,7 +35,7 @@ void CheckKeeping(const KeptWork& work, const std::string& out, const std::strin
   }
 }
 
-void AddChoice(const KeptWork& work, CommandText& command) {
+void AddChoice(const KeptWork& work, ShellCommand& command) {
   command.Option("--query", work.queries).Option("--set-name", work.sets);
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/command_text.h"
+#include "cli/shell_command.h"
 
 namespace ridgeline {
 
@@ -25,6 +25,6 @@ void AddKeptWorkOptions(CLI::App& command, const std::string& pieces, KeptWork& 
 void CheckKeeping(const KeptWork& work, const std::string& out, const std::string& pieces);
 
 // The choice as options of a command; none for all.
-void AddChoice(const KeptWork& work, CommandText& command);
+void AddChoice(const KeptWork& work, ShellCommand& command);
 
 }  // namespace ridgeline

@@ -11,11 +11,11 @@
 #include "base/error.h"
 #include "camera/local_frame.h"
 #include "cli/command.h"
-#include "cli/command_text.h"
 #include "cli/film.h"
 #include "cli/out_folder.h"
 #include "cli/progress.h"
 #include "cli/sequence_input.h"
+#include "cli/shell_command.h"
 #include "cli/skyline_output.h"
 #include "cli/skyline_report.h"
 #include "cli/version.h"
@@ -300,7 +300,7 @@ std::string NameOf(const SequenceArguments& sequence) {
 
 std::string CommandOf(const SkylineArguments& arguments) {
   const SequenceArguments& sequence = arguments.sequence;
-  return CommandText("ridgeline skyline")
+  return ShellCommand("ridgeline skyline")
       .Option("--dataset", sequence.dataset)
       .Option("--frames", sequence.frames)
       .Option("--model", sequence.model)

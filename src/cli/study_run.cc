@@ -8,9 +8,9 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
-#include "cli/command_text.h"
 #include "cli/out_folder.h"
 #include "cli/progress.h"
+#include "cli/shell_command.h"
 #include "cli/study_output.h"
 #include "cli/study_table.h"
 #include "cli/unread_options.h"
@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 std::string CommandOf(const StudyArguments& arguments) {
-  CommandText command("ridgeline study");
+  ShellCommand command("ridgeline study");
   command.Word(arguments.dataset).Option("--score", arguments.scores);
   AddChoice(arguments.work, command);
   command.Option("--vary", arguments.vary);

@@ -12,8 +12,8 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "cli/command.h"
-#include "cli/command_text.h"
 #include "cli/progress.h"
+#include "cli/shell_command.h"
 #include "convert/egeniouss.h"
 #include "input/dataset.h"
 #include "synth/town_dataset.h"
@@ -116,15 +116,15 @@ std::string NextCommand(const SynthArguments& arguments, bool has_pictures) {
   const fs::path out = arguments.out;
   const std::string dataset = (out / "dataset.json").string();
   if (!arguments.layout.empty()) {
-    return CommandText("ridgeline convert").Word(out.string()).Option("--out", "DATASET.json").text();
+    return ShellCommand("ridgeline convert").Word(out.string()).Option("--out", "DATASET.json").text();
   }
-  CommandText command("ridgeline bench");
+  ShellCommand command("ridgeline bench");
   if (arguments.walk_frames > 0) {
-    command = CommandText("ridgeline skyline")
+    command = ShellCommand("ridgeline skyline")
                   .Option("--dataset", dataset)
                   .Option("--sensors", (out / "sensors.csv").string());
   } else if (arguments.Frames() > 0) {
-    command = CommandText("ridgeline track")
+    command = ShellCommand("ridgeline track")
                   .Word(dataset)
                   .Option("--odometry", (out / "odometry.csv").string());
   } else if (has_pictures) {

@@ -12,11 +12,11 @@
 #include "base/error.h"
 #include "camera/local_frame.h"
 #include "city/crs.h"
-#include "cli/command_text.h"
 #include "cli/film.h"
 #include "cli/idle_options.h"
 #include "cli/out_folder.h"
 #include "cli/progress.h"
+#include "cli/shell_command.h"
 #include "cli/track_output.h"
 #include "cli/track_report.h"
 #include "cli/version.h"
@@ -131,7 +131,7 @@ class Session {
     if (request_.report.empty()) return;
     ReportData data = report_.Make(rows_, localizer_);
     data.title = "Track of " + NameOfInput(request_.input.input);
-    data.command = CommandText("ridgeline track").Word(request_.input.input).text();
+    data.command = ShellCommand("ridgeline track").Word(request_.input.input).text();
     data.version = VersionText();
     data.crs = CrsName(world_.model.crs);
     data.options_json = OptionsToJson(

@@ -17,16 +17,22 @@ void OutcomeModel::Visit(OptionVisitor& v) {
 double OutcomeModel::Probability(double posterior_mass,
                                  const Goodness& goodness,
                                  std::optional<double> background_nat) const {
+  // The bounds that the weights were learned with.
+  constexpr double kLeastExplained = -0.5;
   constexpr double kMostExplained = 1.5;
-  constexpr double kLeastNat = -10.0;
-  constexpr double kMostNat = 25.0;
-  // Of right answers where it is known, about.
-  constexpr double kUnknownNat = 10.0;
+  constexpr double kLeastShare = -0.5;
+  constexpr double kMostShare = 1.2;
+  // Three of four right answers have more.
+  constexpr double kUnknownShare = 0.6;
+  constexpr double kLeastInformationNat = 5.0;
   // Edges that can tell more than this are as good as any.
   constexpr double kInformationNat = 15.0;
+  const double share =
+      background_nat ? *background_nat / std::max(goodness.information(), kLeastInformationNat)
+                     : kUnknownShare;
   const double logit =
-      offset + explained * std::clamp(goodness.explained(), -0.5, kMostExplained) +
-      above_background * std::clamp(background_nat.value_or(kUnknownNat), kLeastNat, kMostNat) +
+      offset + explained * std::clamp(goodness.explained(), kLeastExplained, kMostExplained) +
+      above_background * std::clamp(share, kLeastShare, kMostShare) +
       information * std::min(0.0, goodness.information() - kInformationNat);
   return std::pow(std::clamp(posterior_mass, 0.0, 1.0), mass_power) / (1.0 + std::exp(-logit));
 }

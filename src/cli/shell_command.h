@@ -9,16 +9,16 @@ namespace ridgeline {
 
 // A command to be copied into a shell, as reports and hints show it: words that the shell would read
 // otherwise (blanks, quotes, ...) are quoted.
-class CommandText {
+class ShellCommand {
  public:
   // @param start  Program and command, e.g. "ridgeline bench".
-  explicit CommandText(std::string start) : text_(std::move(start)) {}
+  explicit ShellCommand(std::string start) : text_(std::move(start)) {}
 
-  CommandText& Word(const std::string& word);
+  ShellCommand& Word(const std::string& word);
   // "--name value"; nothing for an empty value.
-  CommandText& Option(const char* name, const std::string& value);
+  ShellCommand& Option(const char* name, const std::string& value);
   // Once for each value.
-  CommandText& Option(const char* name, const std::vector<std::string>& values);
+  ShellCommand& Option(const char* name, const std::vector<std::string>& values);
 
   const std::string& text() const { return text_; }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/command_text.h"
+#include "cli/shell_command.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace ridgeline {
 namespace {
 
 // What a shell makes of it.
-std::string Echoed(const CommandText& command) {
+std::string Echoed(const ShellCommand& command) {
   std::FILE* pipe = ::popen(command.text().c_str(), "r");
   std::string text;
   std::array<char, 256> part{};
@@ -21,15 +21,15 @@ std::string Echoed(const CommandText& command) {
   return text;
 }
 
-TEST(CommandText, PlainWordsStayAsTheyAre) {
-  const CommandText command = CommandText("ridgeline bench")
+TEST(ShellCommand, PlainWordsStayAsTheyAre) {
+  const ShellCommand command = ShellCommand("ridgeline bench")
                                   .Word("town/dataset.json")
                                   .Option("--set", std::vector<std::string>{"a.b=1", "c=x,y"})
                                   .Option("--world", "");
   EXPECT_EQ(command.text(), "ridgeline bench town/dataset.json --set a.b=1 --set c=x,y");
 }
 
-TEST(CommandText, AShellReadsEachWordAsItIs) {
+TEST(ShellCommand, AShellReadsEachWordAsItIs) {
   for (const std::string word : {"my town/dataset.json",
                                  "it's",
                                  "$HOME",
@@ -40,7 +40,7 @@ TEST(CommandText, AShellReadsEachWordAsItIs) {
                                  "a\\b",
                                  "~",
                                  "stra\xc3\x9f" "e"}) {
-    EXPECT_EQ(Echoed(CommandText("printf '%s|%s'").Word(word).Option("-x", word)),
+    EXPECT_EQ(Echoed(ShellCommand("printf '%s|%s'").Word(word).Option("-x", word)),
               word + "|-x" + word + "|") << word;
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/command_text.h"
+#include "cli/shell_command.h"
 
 #include <string_view>
 
@@ -14,7 +14,7 @@ bool IsPlain(std::string_view word) {
 
 }  // namespace
 
-CommandText& CommandText::Word(const std::string& word) {
+ShellCommand& ShellCommand::Word(const std::string& word) {
   text_ += ' ';
   if (IsPlain(word)) {
     text_ += word;
@@ -26,13 +26,13 @@ CommandText& CommandText::Word(const std::string& word) {
   return *this;
 }
 
-CommandText& CommandText::Option(const char* name, const std::string& value) {
+ShellCommand& ShellCommand::Option(const char* name, const std::string& value) {
   if (value.empty()) return *this;
   text_ += std::string(" ") + name;
   return Word(value);
 }
 
-CommandText& CommandText::Option(const char* name, const std::vector<std::string>& values) {
+ShellCommand& ShellCommand::Option(const char* name, const std::vector<std::string>& values) {
   for (const std::string& value : values) Option(name, value);
   return *this;
 }
