@@ -38,7 +38,7 @@ struct ConfidenceOptions {
   // That an answer is within 2 m and 2 degrees, and that it is within 5 m and 5 degrees; for scores
   // that judge no buildings the confidence is the posterior mass.
   OutcomeModel right{-3.85, 3.2, 3.8, 0.35, 1.9};
-  OutcomeModel near{-4.8, 4.5, 4.7, 0.39, 0.6};
+  OutcomeModel near{-4.75, 4.5, 4.7, 0.39, 0.6};
   // Answers whose protection level is above this are withheld [m]; 0: none are.
   double alert_limit_m = 0.0;
   // Above 1 the posterior is wider than the log ratios say, below it narrower (docs/confidence.md).

@@ -215,8 +215,9 @@ std::uint64_t RefineModes(const PoseScorer& scorer, int threads, SearchedPoses& 
     refine(first, count, {0.5 * found.spacing_m, 0.5, 0.3});
   });
   SortBestFirst(modes);
+  const std::size_t third = (modes.size() + 2) / 3;
   JoinModes(modes);
-  const std::size_t better = (modes.size() + 2) / 3;
+  const std::size_t better = std::min(third, modes.size());
   RefineWhileHopeful(modes, better, [&](std::size_t first, std::size_t count) {
     refine(first, count, {0.25, 0.25, 0.06});
   });
