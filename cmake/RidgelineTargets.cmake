@@ -11,6 +11,9 @@ endif()
 if(RIDGELINE_SANITIZE)
   add_compile_options(-fsanitize=${RIDGELINE_SANITIZE} -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${RIDGELINE_SANITIZE})
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    add_compile_options(-fno-sanitize=function)  # clang 14 compiles no coroutine (samplers) with it
+  endif()
   # Eigen allocates in another way under the address sanitizer; the installed libraries (Ceres,
   # pagmo) free what we allocate, so ours has to be theirs.
   add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)

@@ -60,6 +60,7 @@ def features(rows):
     tellable = np.maximum(information, LEAST_INFORMATION_NAT)
     background = np.clip([float(r["above_background_nat"]) / most if r["above_background_nat"]
                           else UNKNOWN_SHARE for r, most in zip(rows, tellable)], -0.5, 1.2)
+    background = np.clip(np.minimum(background, [float(r["explained"]) for r in rows]), -0.5, 1.2)
     missing = np.minimum(0.0, information - INFORMATION_NAT)
     return np.stack([np.ones(len(rows)), explained, background, missing], axis=1), mass
 

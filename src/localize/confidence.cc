@@ -27,9 +27,12 @@ double OutcomeModel::Probability(double posterior_mass,
   constexpr double kLeastInformationNat = 5.0;
   // Edges that can tell more than this are as good as any.
   constexpr double kInformationNat = 15.0;
+  // A place that stands out, but not by its edges, stands out for another reason.
   const double share =
-      background_nat ? *background_nat / std::max(goodness.information(), kLeastInformationNat)
-                     : kUnknownShare;
+      std::min(goodness.explained(),
+               background_nat
+                   ? *background_nat / std::max(goodness.information(), kLeastInformationNat)
+                   : kUnknownShare);
   const double logit =
       offset + explained * std::clamp(goodness.explained(), kLeastExplained, kMostExplained) +
       above_background * std::clamp(share, kLeastShare, kMostShare) +

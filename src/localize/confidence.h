@@ -14,7 +14,7 @@ namespace ridgeline {
 // they can tell much (few edges agree with many places), times a power of the posterior mass, that it
 // is from there and not from elsewhere in the box:
 // P = mass^mass_power / (1 + exp(-(offset + explained * Goodness::explained() +
-//                                  above_background * nats / Goodness::information() +
+//                                  above_background * min(nats / information(), explained()) +
 //                                  information * min(0, Goodness::information() - 15)))).
 // Learned by scripts/learn_confidence.py (docs/confidence.md).
 struct OutcomeModel {

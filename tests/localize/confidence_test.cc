@@ -18,18 +18,25 @@ Goodness Explained(double share, double information = 20.0) {
 
 TEST(OutcomeModel, IsALogisticFunctionTimesAPowerOfTheMass) {
   const OutcomeModel model{-3.0, 2.0, 1.0, 0.2, 1.5};
-  // -3 + 2 * 0.8 + 18 / 20 = -0.5.
-  EXPECT_NEAR(model.Probability(0.64, Explained(0.8), 18.0), 0.512 / (1.0 + std::exp(0.5)), 1e-12);
+  // -3 + 2 * 0.8 + 14 / 20 = -0.7.
+  EXPECT_NEAR(model.Probability(0.64, Explained(0.8), 14.0), 0.512 / (1.0 + std::exp(0.7)), 1e-12);
 }
 
 TEST(OutcomeModel, EdgesThatCanTellLittleAreBelievedLess) {
   const OutcomeModel model{-3.0, 2.0, 1.0, 0.2, 1.5};
   // As above, less 0.2 for each nat that is missing of 15.
-  EXPECT_NEAR(model.Probability(0.64, Explained(0.8, 12.5), 0.9 * 12.5),
-              0.512 / (1.0 + std::exp(1.0)),
+  EXPECT_NEAR(model.Probability(0.64, Explained(0.8, 12.5), 0.7 * 12.5),
+              0.512 / (1.0 + std::exp(1.2)),
               1e-12);
   EXPECT_NEAR(model.Probability(0.64, Explained(0.8, 15.0), 6.0),
               model.Probability(0.64, Explained(0.8, 150.0), 60.0),
+              1e-12);
+}
+
+TEST(OutcomeModel, StandingOutWithoutTheEdgesCountsNoMoreThanTheEdges) {
+  const OutcomeModel model{-3.0, 2.0, 4.0, 0.2, 1.5};
+  EXPECT_NEAR(model.Probability(1.0, Explained(0.3), 40.0),
+              model.Probability(1.0, Explained(0.3), 0.3 * 20.0),
               1e-12);
 }
 
