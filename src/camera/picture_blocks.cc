@@ -209,7 +209,10 @@ PictureBlocks ReadPictureBlocks(const std::filesystem::path& path) {
   std::string file = ReadFile(path);
   if (file.starts_with("\xff\xd8")) return OfJpeg(file);
   if (file.starts_with("\x89PNG\r\n\x1a\n")) return OfPng(file);
-  if (file.starts_with("RIFF") && file.compare(8, 4, "WEBP") == 0) return OfWebp(file);
+  constexpr std::size_t kWebpHeader = 12;  // "RIFF", a size, "WEBP"
+  if (file.starts_with("RIFF") && file.size() >= kWebpHeader && file.compare(8, 4, "WEBP") == 0) {
+    return OfWebp(file);
+  }
   if (IsTiff(file)) return OfTiff(std::move(file));
   return {};
 }
