@@ -58,9 +58,9 @@ def features(rows):
     mass = np.clip([float(r["posterior_mass"]) for r in rows], 1e-6, 1.0)
     information = np.array([float(r["information_nat"]) for r in rows])
     tellable = np.maximum(information, LEAST_INFORMATION_NAT)
-    background = np.clip([float(r["above_background_nat"]) / most if r["above_background_nat"]
-                          else UNKNOWN_SHARE for r, most in zip(rows, tellable)], -0.5, 1.2)
-    background = np.clip(np.minimum(background, [float(r["explained"]) for r in rows]), -0.5, 1.2)
+    share = [float(r["above_background_nat"]) / most if r["above_background_nat"] else UNKNOWN_SHARE
+             for r, most in zip(rows, tellable)]
+    background = np.clip(np.minimum(share, [float(r["explained"]) for r in rows]), -0.5, 1.2)
     missing = np.minimum(0.0, information - INFORMATION_NAT)
     return np.stack([np.ones(len(rows)), explained, background, missing], axis=1), mass
 

@@ -24,7 +24,7 @@ void RemoveTemporaries() noexcept;
 void WriteFileAtomically(const std::filesystem::path& path, std::string_view content);
 
 // The same for files that belong together, as path and content: none is put in its place before all
-// are written.
+// are written. Throws InputError on failure.
 void WriteFilesAtomically(
     const std::vector<std::pair<std::filesystem::path, std::string>>& files);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "localize/settle_pose.h"
 
-
 namespace ridgeline {
 
 ScoredPose SettlePose(const PoseScorer& scorer,
